@@ -1,0 +1,13 @@
+# Warnings and sanitizers, applied by split_mapf_compile_options(target).
+set(SPLIT_MAPF_WARNINGS -Wall -Wextra -Wpedantic)
+if(SPLIT_MAPF_WERROR)
+  list(APPEND SPLIT_MAPF_WARNINGS -Werror)
+endif()
+if(SPLIT_MAPF_SANITIZE)
+  add_compile_options(-fsanitize=${SPLIT_MAPF_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${SPLIT_MAPF_SANITIZE})
+endif()
+
+function(split_mapf_compile_options target)
+  target_compile_options(${target} PRIVATE ${SPLIT_MAPF_WARNINGS})
+endfunction()

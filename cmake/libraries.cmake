@@ -1,0 +1,24 @@
+# The ROS-free core library and the command.
+file(GLOB SPLIT_MAPF_CORE_SOURCES CONFIGURE_DEPENDS
+  src/core/*.cpp src/io/*.cpp src/solver/*.cpp src/solver/*/*.cpp src/split/*.cpp src/pipeline/*.cpp)
+add_library(split_mapf_core ${SPLIT_MAPF_CORE_SOURCES})
+target_include_directories(split_mapf_core
+  PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/include
+  PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src ${YAML_CPP_INCLUDE_DIR})
+target_link_libraries(split_mapf_core
+  PUBLIC Threads::Threads Boost::boost
+  PRIVATE ${YAML_CPP_LIBRARIES} nlohmann_json::nlohmann_json PNG::PNG)
+split_mapf_compile_options(split_mapf_core)
+
+file(GLOB SPLIT_MAPF_TOOL_SOURCES CONFIGURE_DEPENDS src/tool/*.cpp)
+add_executable(split_mapf ${SPLIT_MAPF_TOOL_SOURCES})
+target_include_directories(split_mapf PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+target_compile_definitions(split_mapf PRIVATE SPLIT_MAPF_VERSION="${PROJECT_VERSION}")
+target_link_libraries(split_mapf PRIVATE split_mapf_core Boost::program_options nlohmann_json::nlohmann_json)
+split_mapf_compile_options(split_mapf)
+
+if(NOT SPLIT_MAPF_ROS)
+  include(GNUInstallDirs)
+  install(TARGETS split_mapf_core split_mapf)
+  install(DIRECTORY include/split_mapf DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} PATTERN ros EXCLUDE)
+endif()

@@ -1,0 +1,24 @@
+# The ROS side: conversions and servers as a library, two nodes, installation.
+file(GLOB SPLIT_MAPF_ROS_SOURCES CONFIGURE_DEPENDS src/ros/*.cpp)
+add_library(split_mapf_ros ${SPLIT_MAPF_ROS_SOURCES})
+target_include_directories(split_mapf_ros SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})
+target_link_libraries(split_mapf_ros PUBLIC split_mapf_core ${catkin_LIBRARIES})
+add_dependencies(split_mapf_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
+split_mapf_compile_options(split_mapf_ros)
+
+foreach(node planner_node replay_node)
+  add_executable(${node} src/node/${node}.cpp)
+  target_link_libraries(${node} PRIVATE split_mapf_ros)
+  split_mapf_compile_options(${node})
+endforeach()
+
+catkin_install_python(PROGRAMS scripts/plan_client.py
+  DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+install(TARGETS split_mapf_core split_mapf_ros
+  ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+  LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+  RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
+install(TARGETS split_mapf planner_node replay_node
+  RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+install(DIRECTORY include/split_mapf/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
+install(DIRECTORY launch config rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

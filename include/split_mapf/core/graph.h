@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace split_mapf {
+
+/// Index of a graph vertex (of a grid: a free cell), 0 .. size()-1.
+using Vertex = std::uint32_t;
+/// Marks the absence of a vertex.
+constexpr Vertex kNoVertex = 0xffffffffU;
+
+/// A contiguous, read-only run of vertices.
+class VertexRange {
+ public:
+  VertexRange(const Vertex* first, const Vertex* last) : first_(first), last_(last) {}
+  const Vertex* begin() const { return first_; }
+  const Vertex* end() const { return last_; }
+  std::uint32_t size() const { return static_cast<std::uint32_t>(last_ - first_); }
+
+ private:
+  const Vertex* first_;
+  const Vertex* last_;
+};
+
+/// An undirected graph in compressed adjacency form. Immutable, hence safe to share between
+/// threads. Neighbours come in ascending order; loops and parallel edges are dropped.
+class Graph {
+ public:
+  Graph() = default;
+  /// Builds a graph of `size` vertices. @throws std::out_of_range for an edge end >= size.
+  Graph(std::uint32_t size, const std::vector<std::pair<Vertex, Vertex>>& edges);
+
+  std::uint32_t size() const { return static_cast<std::uint32_t>(offsets_.size()) - 1; }
+  std::uint32_t edgeCount() const { return static_cast<std::uint32_t>(targets_.size() / 2); }
+  VertexRange neighbours(Vertex v) const {
+    return {targets_.data() + offsets_[v], targets_.data() + offsets_[v + 1]};
+  }
+  bool adjacent(Vertex a, Vertex b) const;
+
+ private:
+  std::vector<std::uint32_t> offsets_ = {0};
+  std::vector<Vertex> targets_;
+};
+
+}  // namespace split_mapf

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "split_mapf/core/instance.h"
+#include "split_mapf/core/plan.h"
+
+namespace split_mapf {
+
+/// What can be wrong with a plan.
+enum class ViolationKind {
+  kRobotCount,      ///< not one path a robot
+  kEmptyPath,       ///< a path without a single vertex
+  kOutsideGrid,     ///< an entry that is no free cell of the grid
+  kWrongStart,      ///< the first entry is not the start
+  kWrongGoal,       ///< the last entry is not the goal
+  kJump,            ///< a move to a cell that is not adjacent
+  kVertexConflict,  ///< two robots in one cell at one step
+  kSwapConflict,    ///< two robots exchange their cells in one step
+};
+
+/// One violation; `robot`, `other`, `step` mean something where the kind needs them.
+struct Violation {
+  ViolationKind kind = ViolationKind::kRobotCount;
+  std::uint32_t robot = 0;
+  std::uint32_t other = 0;
+  std::uint32_t step = 0;  ///< of a move: the step at which it ends
+  std::string message;
+};
+
+/// Checks a plan against its instance and lists every violation, robot by robot, then step by
+/// step. Shares no code with any solver. A robot whose path has ended stays and can still be run
+/// into; vertex conflicts that last are listed once a step while either of the two paths lasts.
+/// Thread-safe. Cost: O(robots * makespan).
+std::vector<Violation> validate(const Instance& instance, const Plan& plan);
+
+/// The same for paths given as cells, which may be blocked or outside the grid: what a file or a
+/// message claims is checked as it stands.
+std::vector<Violation> validate(const Instance& instance,
+                                const std::vector<std::vector<Cell>>& paths);
+
+}  // namespace split_mapf

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace split_mapf {
+
+/// Worker threads shared by every caller. Batches are served in order of arrival, the jobs of a
+/// batch longest expected first.
+class Executor {
+ public:
+  /// @param threads  number of worker threads, >= 1.
+  explicit Executor(std::uint32_t threads);
+  /// Waits for the running batches.
+  ~Executor();
+  Executor(const Executor&) = delete;
+  Executor& operator=(const Executor&) = delete;
+
+  std::uint32_t threads() const { return threads_; }
+
+  /// One piece of work and how much of it is expected, in any unit.
+  struct Job {
+    double expected_effort = 0;
+    std::function<void()> run;
+  };
+
+  /// Runs all jobs on at most `threads` workers (0: all) and returns when the last has ended. The
+  /// first exception that a job throws is rethrown here, after all others have ended. Thread-safe;
+  /// never call it from inside a job.
+  void run(std::vector<Job> jobs, std::uint32_t threads = 0);
+  /// Calls body(i) for i in [0, count) on at most `threads` workers (0: all), in chunks.
+  void forEach(std::uint32_t count, const std::function<void(std::uint32_t)>& body,
+               std::uint32_t threads = 0);
+
+ private:
+  struct Pool;
+  std::uint32_t threads_;
+  std::unique_ptr<Pool> pool_;
+};
+
+}  // namespace split_mapf

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "split_mapf/solver/solver.h"
+
+namespace split_mapf {
+
+/// One option of a solver or a splitter, as `split_mapf solvers` lists it.
+struct OptionInfo {
+  std::string name;
+  std::string default_value;
+  std::string description;
+};
+
+/// A registered solver.
+struct SolverInfo {
+  std::string name;
+  std::string description;
+  std::vector<OptionInfo> options;
+  /// Builds a solver. @throws OptionError for a value out of range.
+  std::function<std::unique_ptr<Solver>(const SolverOptions&)> make;
+};
+
+/// Solvers by name. Filled once, then only read: reading is thread-safe.
+class SolverRegistry {
+ public:
+  /// @throws std::invalid_argument when the name is taken.
+  void add(SolverInfo info);
+  /// In order of names.
+  std::vector<std::string> names() const;
+  /// @throws UnknownSolverError listing what there is.
+  const SolverInfo& info(const std::string& name) const;
+  /// Builds a solver, after checking that every option is one that the solver offers.
+  /// @throws UnknownSolverError, OptionError.
+  std::unique_ptr<Solver> create(const std::string& name, const SolverOptions& options) const;
+
+ private:
+  std::map<std::string, SolverInfo> solvers_;
+};
+
+/// The solvers of this package.
+const SolverRegistry& builtinSolvers();
+
+}  // namespace split_mapf

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "split_mapf/core/deadline.h"
+#include "split_mapf/core/instance.h"
+#include "split_mapf/core/objective.h"
+#include "split_mapf/core/plan.h"
+#include "split_mapf/core/termination.h"
+
+namespace split_mapf {
+
+/// What was found, what was proved and why the search stopped: separate fields.
+struct SolveResult {
+  Termination termination = Termination::kNoPlanFound;
+  std::optional<Plan> plan;           ///< set exactly when kSolved; paths end at the arrival
+  std::uint64_t lower_bound = 0;      ///< proved for the objective [steps]
+  bool optimal = false;               ///< plan cost == optimum, proved
+  std::string certified_by;           ///< who proved it; empty unless optimal
+  std::string message;                ///< a sentence for people
+  std::uint64_t high_level_nodes = 0;     ///< expanded nodes of the solver's own tree
+  std::uint64_t low_level_expansions = 0; ///< expanded states of single-robot searches
+};
+
+/// What every solver is told beside the instance.
+struct SolverOptions {
+  Objective objective = Objective::kMakespan;
+  double suboptimality = 1.5;                 ///< bound w >= 1 of bounded-suboptimal solvers
+  std::uint64_t seed = 0;                     ///< all randomness
+  std::map<std::string, std::string> values;  ///< the solver's own options, by name
+};
+
+/// A planner for whole instances. Re-entrant: one object may solve several instances at once from
+/// several threads.
+class Solver {
+ public:
+  virtual ~Solver() = default;
+  /// Plans the instance. Polls `deadline`. The same instance and options give the same plan unless
+  /// the deadline cut the search. Infeasibility, time-out and cancellation are results, never
+  /// exceptions.
+  virtual SolveResult solve(const Instance& instance, const Deadline& deadline) const = 0;
+};
+
+}  // namespace split_mapf
