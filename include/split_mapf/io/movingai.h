@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "split_mapf/core/grid.h"
+
+namespace split_mapf {
+
+/// What a MovingAI `.scen` file asks for: robot i goes from starts[i] to goals[i]. Both lists have
+/// one entry a robot, in the file's order.
+struct Scenario {
+  std::vector<Cell> starts;
+  std::vector<Cell> goals;
+};
+
+/// Reads a MovingAI `.map`: `.`, `G` and `S` are free, `@`, `O`, `T` and `W` are blocked. Lines may
+/// end in CR LF.
+/// @throws InputError "path:line: what was read, what was expected" for anything malformed or
+/// truncated. Cost: O(cells). Thread-safe.
+std::shared_ptr<const Grid> readMovingAiMap(const std::string& path);
+
+/// Reads the first `agents` rows of a MovingAI `.scen`, or all of them. Width and height in each
+/// row must be the grid's; the name of the map is not compared, since maps get renamed. The length
+/// column must be a number and is not used: it counts diagonal moves. Two robots that share a start
+/// or a goal pass here and are refused by Instance.
+/// @throws InputError "path:line: ..." for a malformed row, another grid size, a start or goal that
+/// is blocked or outside the grid (naming robot and cell), fewer rows than `agents`, no row at all.
+Scenario readMovingAiScenario(const std::string& path, const Grid& grid,
+                              std::optional<std::uint32_t> agents = std::nullopt);
+
+/// Writes a grid as a `.map` of `.` and `@`. @throws InputError when the file cannot be written.
+void writeMovingAiMap(const std::string& path, const Grid& grid);
+
+/// Writes a `.scen` whose rows name `map_name`. The length column holds the 4-connected shortest
+/// length [steps], -1 where there is no way; the bucket is a quarter of it.
+/// @throws InputError when a cell is blocked or outside, when the two lists differ in length, or
+/// when the file cannot be written. Cost: one breadth-first search a robot.
+void writeMovingAiScenario(const std::string& path, const std::string& map_name, const Grid& grid,
+                           const Scenario& scenario);
+
+}  // namespace split_mapf

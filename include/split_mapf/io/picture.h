@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "split_mapf/core/grid.h"
+#include "split_mapf/io/cell_paths.h"
+
+namespace split_mapf {
+
+/// A colour of a picture, 0 .. 255 a channel.
+struct Colour {
+  std::uint8_t red = 0;
+  std::uint8_t green = 0;
+  std::uint8_t blue = 0;
+  friend bool operator==(Colour a, Colour b) {
+    return a.red == b.red && a.green == b.green && a.blue == b.blue;
+  }
+};
+
+/// A picture in memory. `pixels` is row-major from the top, width_px * height_px entries.
+struct Picture {
+  std::uint32_t width_px = 0;
+  std::uint32_t height_px = 0;
+  std::vector<Colour> pixels;
+  Colour at(std::uint32_t x, std::uint32_t y) const {
+    return pixels[std::size_t{y} * width_px + x];
+  }
+};
+
+/// How a picture is drawn. The defaults suit every size of map.
+struct PictureOptions {
+  std::uint32_t cell_px = 0;    ///< pixels a cell, 1 .. 256; 0 = so that the picture has about
+                                ///< 1000 pixels, with 3 a cell at the least
+  bool grid_lines = true;       ///< lines between free cells, where a cell has at least 12 pixels
+  double line_width_cells = 0;  ///< width of a path; 0 = thinner the more robots there are
+  double opacity = 0;           ///< of a path, at most 1; 0 = fainter the more robots there are
+};
+
+/// Draws a plan: every robot's path as a line in its own hue, its start as a hollow circle, its
+/// goal as a disc. Robots are told apart by their index, so that one robot keeps its colour in all
+/// pictures of the same number of robots.
+/// @throws InputError naming robot and step when a path is empty or leaves the grid (a blocked
+/// cell or a jump is drawn as it is), or when the picture would exceed 2^28 pixels; OptionError for
+/// an option out of range. Cost: O(pixels + entries * cell_px^2). Thread-safe.
+Picture drawPlan(const Grid& grid, const CellPaths& paths, const PictureOptions& options = {});
+
+/// Draws starts and goals alone, each pair joined by a faint straight line. @throws as drawPlan;
+/// InputError when the two lists differ in length.
+Picture drawInstance(const Grid& grid, const std::vector<Cell>& starts,
+                     const std::vector<Cell>& goals, const PictureOptions& options = {});
+
+/// Writes a picture as a PNG file. @throws InputError when the file cannot be written.
+void writePng(const std::string& path, const Picture& picture);
+
+}  // namespace split_mapf
