@@ -30,10 +30,15 @@ struct Violation {
   std::string message;
 };
 
-/// Checks a plan against its instance and lists every violation, robot by robot, then step by
-/// step. Shares no code with any solver. A robot whose path has ended stays and can still be run
-/// into; vertex conflicts that last are listed once a step while either of the two paths lasts.
-/// Thread-safe. Cost: O(robots * makespan).
+/// Checks a plan against its instance and lists every violation: first those of single robots,
+/// robot by robot, then those between two robots, step by step. Shares no code with any solver.
+///
+/// A robot whose path has ended stays and can still be run into. A vertex conflict that lasts is
+/// listed once a step while either of the two paths lasts. Where more than two robots stand in one
+/// cell, each is listed once a step, against the lowest-numbered robot there (`robot`, the later
+/// one in `other`); swaps likewise. Surplus paths, without a robot in the instance, are checked for
+/// all but start and goal. Waiting at the goal behind the arrival is fine.
+/// Thread-safe. Cost: O(robots * makespan) for a plan in which few robots collide.
 std::vector<Violation> validate(const Instance& instance, const Plan& plan);
 
 /// The same for paths given as cells, which may be blocked or outside the grid: what a file or a

@@ -1,0 +1,267 @@
+#include "split_mapf/core/validate.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+namespace split_mapf {
+namespace {
+
+/// Paths made of vertices; a number that is no vertex of the grid is possible.
+class VertexPaths {
+ public:
+  VertexPaths(const Grid& grid, const std::vector<Path>& paths) : grid_(grid), paths_(paths) {}
+  std::uint32_t count() const { return static_cast<std::uint32_t>(paths_.size()); }
+  std::uint32_t length(std::uint32_t path) const {
+    return static_cast<std::uint32_t>(paths_[path].size());
+  }
+  /// kNoVertex for an entry that is no free cell.
+  Vertex vertex(std::uint32_t path, std::uint32_t step) const {
+    const Vertex v = paths_[path][step];
+    return v < grid_.size() ? v : kNoVertex;
+  }
+  std::string name(std::uint32_t path, std::uint32_t step) const {
+    const Vertex v = vertex(path, step);
+    return v == kNoVertex ? "vertex " + std::to_string(paths_[path][step])
+                          : toString(grid_.cellOf(v));
+  }
+  /// What is wrong with an entry that is no free cell.
+  std::string defect(std::uint32_t /*path*/, std::uint32_t /*step*/) const {
+    return "which the map of " + std::to_string(grid_.size()) + " free cells does not have";
+  }
+  /// Whether the entry can follow the one before it. A number that is no vertex has no place, so
+  /// that moves from and to it cannot be judged.
+  bool follows(std::uint32_t path, std::uint32_t step) const {
+    const Vertex from = vertex(path, step - 1);
+    const Vertex to = vertex(path, step);
+    return from == to || from == kNoVertex || to == kNoVertex || grid_.graph().adjacent(from, to);
+  }
+
+ private:
+  const Grid& grid_;
+  const std::vector<Path>& paths_;
+};
+
+/// Paths made of cells, wherever these are.
+class ClaimedPaths {
+ public:
+  ClaimedPaths(const Grid& grid, const std::vector<std::vector<Cell>>& paths)
+      : grid_(grid), paths_(paths) {}
+  std::uint32_t count() const { return static_cast<std::uint32_t>(paths_.size()); }
+  std::uint32_t length(std::uint32_t path) const {
+    return static_cast<std::uint32_t>(paths_[path].size());
+  }
+  Vertex vertex(std::uint32_t path, std::uint32_t step) const {
+    return grid_.vertexAt(paths_[path][step]);
+  }
+  std::string name(std::uint32_t path, std::uint32_t step) const {
+    return toString(paths_[path][step]);
+  }
+  std::string defect(std::uint32_t path, std::uint32_t step) const {
+    if (grid_.contains(paths_[path][step])) return "a blocked cell";
+    return "outside the map of " + std::to_string(grid_.width()) + "x" +
+           std::to_string(grid_.height()) + " cells";
+  }
+  bool follows(std::uint32_t path, std::uint32_t step) const {
+    const Cell from = paths_[path][step - 1];
+    const Cell to = paths_[path][step];
+    return std::abs(std::int64_t{from.x} - to.x) + std::abs(std::int64_t{from.y} - to.y) <= 1;
+  }
+
+ private:
+  const Grid& grid_;
+  const std::vector<std::vector<Cell>>& paths_;
+};
+
+std::string robotNamed(std::uint32_t robot) { return "robot " + std::to_string(robot); }
+
+std::string robotsNamed(std::uint32_t robot, std::uint32_t other) {
+  return "robots " + std::to_string(robot) + " and " + std::to_string(other);
+}
+
+/// What is wrong with single robots.
+template <typename Paths>
+class RobotChecks {
+ public:
+  RobotChecks(const Instance& instance, const Paths& paths, std::vector<Violation>& violations)
+      : instance_(instance), paths_(paths), violations_(violations) {}
+
+  void run() {
+    if (paths_.count() != instance_.robots()) {
+      violations_.push_back({ViolationKind::kRobotCount, 0, 0, 0,
+                             "the plan has " + std::to_string(paths_.count()) +
+                                 " paths, but the instance has " +
+                                 std::to_string(instance_.robots()) + " robots"});
+    }
+    for (std::uint32_t robot = 0; robot < paths_.count(); ++robot) check(robot);
+  }
+
+ private:
+  void check(std::uint32_t robot) {
+    if (paths_.length(robot) == 0) {
+      add(ViolationKind::kEmptyPath, robot, 0, "its path is empty; it needs at least its start");
+      return;
+    }
+    if (robot < instance_.robots()) checkStart(robot);
+    for (std::uint32_t step = 0; step < paths_.length(robot); ++step) checkEntry(robot, step);
+    if (robot < instance_.robots()) checkGoal(robot);
+  }
+
+  void checkStart(std::uint32_t robot) {
+    if (paths_.vertex(robot, 0) == instance_.start(robot)) return;
+    add(ViolationKind::kWrongStart, robot, 0,
+        "its path begins at " + paths_.name(robot, 0) + " instead of its start " +
+            toString(instance_.grid().cellOf(instance_.start(robot))));
+  }
+
+  void checkEntry(std::uint32_t robot, std::uint32_t step) {
+    if (step > 0 && !paths_.follows(robot, step)) {
+      add(ViolationKind::kJump, robot, step,
+          "it jumps from " + paths_.name(robot, step - 1) + " to " + paths_.name(robot, step) +
+              " in step " + std::to_string(step) + "; a move leads to one of four neighbours");
+    }
+    if (paths_.vertex(robot, step) == kNoVertex) {
+      add(ViolationKind::kOutsideGrid, robot, step,
+          "at step " + std::to_string(step) + " it is in " + paths_.name(robot, step) + ", " +
+              paths_.defect(robot, step));
+    }
+  }
+
+  void checkGoal(std::uint32_t robot) {
+    const std::uint32_t last = paths_.length(robot) - 1;
+    if (paths_.vertex(robot, last) == instance_.goal(robot)) return;
+    add(ViolationKind::kWrongGoal, robot, last,
+        "its path ends at " + paths_.name(robot, last) + " after step " + std::to_string(last) +
+            " instead of at its goal " + toString(instance_.grid().cellOf(instance_.goal(robot))));
+  }
+
+  void add(ViolationKind kind, std::uint32_t robot, std::uint32_t step, const std::string& what) {
+    violations_.push_back({kind, robot, robot, step, robotNamed(robot) + ": " + what});
+  }
+
+  const Instance& instance_;
+  const Paths& paths_;
+  std::vector<Violation>& violations_;
+};
+
+/// Who stands where at one step: a list of robots a cell, in ascending order. Entries of earlier
+/// steps are told by their stamp, so that a step costs O(robots), whatever the grid's size.
+class Occupancy {
+ public:
+  static constexpr std::uint32_t kNobody = 0xffffffffU;
+
+  Occupancy(std::uint32_t cells, std::uint32_t robots)
+      : stamps_(cells, kNobody), first_(cells, kNobody), next_(robots, kNobody) {}
+
+  void fill(const std::vector<Vertex>& positions, std::uint32_t step) {
+    step_ = step;
+    for (auto robot = static_cast<std::uint32_t>(positions.size()); robot-- > 0;) {
+      const Vertex v = positions[robot];
+      if (v == kNoVertex) continue;
+      next_[robot] = firstIn(v);
+      stamps_[v] = step;
+      first_[v] = robot;
+    }
+  }
+  std::uint32_t firstIn(Vertex v) const { return stamps_[v] == step_ ? first_[v] : kNobody; }
+  std::uint32_t nextAfter(std::uint32_t robot) const { return next_[robot]; }
+
+ private:
+  std::uint32_t step_ = kNobody;
+  std::vector<std::uint32_t> stamps_;  // cell -> step of its entry in first_
+  std::vector<std::uint32_t> first_;   // cell -> lowest-numbered robot
+  std::vector<std::uint32_t> next_;    // robot -> next higher-numbered robot in its cell
+};
+
+/// What is wrong between two robots.
+template <typename Paths>
+class PairChecks {
+ public:
+  PairChecks(const Grid& grid, const Paths& paths, std::vector<Violation>& violations)
+      : grid_(grid),
+        paths_(paths),
+        violations_(violations),
+        before_(paths.count(), kNoVertex),
+        now_(paths.count(), kNoVertex),
+        occupants_before_(grid.size(), paths.count()),
+        occupants_(grid.size(), paths.count()) {}
+
+  void run() {
+    std::uint32_t steps = 0;
+    for (std::uint32_t robot = 0; robot < paths_.count(); ++robot) {
+      steps = std::max(steps, paths_.length(robot));
+    }
+    for (std::uint32_t step = 0; step < steps; ++step) {
+      advance(step);
+      for (std::uint32_t robot = 0; robot < paths_.count(); ++robot) {
+        if (now_[robot] == kNoVertex) continue;
+        checkVertex(robot, step);
+        if (step > 0) checkSwap(robot, step);
+      }
+    }
+  }
+
+ private:
+  void advance(std::uint32_t step) {
+    std::swap(before_, now_);
+    std::swap(occupants_before_, occupants_);
+    for (std::uint32_t robot = 0; robot < paths_.count(); ++robot) {
+      now_[robot] = step < paths_.length(robot) ? paths_.vertex(robot, step) : before_[robot];
+    }
+    occupants_.fill(now_, step);
+  }
+
+  void checkVertex(std::uint32_t robot, std::uint32_t step) {
+    const std::uint32_t other = occupants_.firstIn(now_[robot]);
+    if (other == robot || (ended(robot, step) && ended(other, step))) return;
+    violations_.push_back({ViolationKind::kVertexConflict, other, robot, step,
+                           robotsNamed(other, robot) + ": both in " +
+                               toString(grid_.cellOf(now_[robot])) + " at step " +
+                               std::to_string(step)});
+  }
+
+  /// Looks for a lower-numbered robot that came from where this one goes, and went where it was.
+  void checkSwap(std::uint32_t robot, std::uint32_t step) {
+    if (before_[robot] == kNoVertex || before_[robot] == now_[robot]) return;
+    std::uint32_t other = occupants_before_.firstIn(now_[robot]);
+    while (other < robot && now_[other] != before_[robot])
+      other = occupants_before_.nextAfter(other);
+    if (other >= robot) return;
+    violations_.push_back({ViolationKind::kSwapConflict, other, robot, step,
+                           robotsNamed(other, robot) + ": exchange the cells " +
+                               toString(grid_.cellOf(before_[other])) + " and " +
+                               toString(grid_.cellOf(now_[other])) + " in step " +
+                               std::to_string(step)});
+  }
+
+  bool ended(std::uint32_t robot, std::uint32_t step) const { return step >= paths_.length(robot); }
+
+  const Grid& grid_;
+  const Paths& paths_;
+  std::vector<Violation>& violations_;
+  std::vector<Vertex> before_;  // robot -> position at the step before
+  std::vector<Vertex> now_;
+  Occupancy occupants_before_;
+  Occupancy occupants_;
+};
+
+template <typename Paths>
+std::vector<Violation> checkAll(const Instance& instance, const Paths& paths) {
+  std::vector<Violation> violations;
+  RobotChecks<Paths>(instance, paths, violations).run();
+  PairChecks<Paths>(instance.grid(), paths, violations).run();
+  return violations;
+}
+
+}  // namespace
+
+std::vector<Violation> validate(const Instance& instance, const Plan& plan) {
+  return checkAll(instance, VertexPaths(instance.grid(), plan.paths));
+}
+
+std::vector<Violation> validate(const Instance& instance,
+                                const std::vector<std::vector<Cell>>& paths) {
+  return checkAll(instance, ClaimedPaths(instance.grid(), paths));
+}
+
+}  // namespace split_mapf
