@@ -33,9 +33,9 @@ struct PlanProgress {
   std::string stage;  ///< "distances", "split", "solve", "stitch", "validate"
   std::uint32_t subproblems_done = 0;
   std::uint32_t subproblems_total = 0;
-  std::uint32_t makespan = 0;        ///< of the best plan so far; 0: none yet
-  std::uint64_t sum_of_costs = 0;    ///< likewise
-  double proved_lower_bound = 0;     ///< of the objective [steps]
+  std::uint32_t makespan = 0;      ///< of the best plan so far; 0: none yet
+  std::uint64_t sum_of_costs = 0;  ///< likewise
+  double proved_lower_bound = 0;   ///< of the objective [steps]
 };
 /// Called at each change of stage and after each piece, from any worker thread, one call at a time.
 using ProgressCallback = std::function<void(const PlanProgress&)>;

@@ -16,13 +16,13 @@ namespace split_mapf {
 /// What was found, what was proved and why the search stopped: separate fields.
 struct SolveResult {
   Termination termination = Termination::kNoPlanFound;
-  std::optional<Plan> plan;           ///< set exactly when kSolved; paths end at the arrival
-  std::uint64_t lower_bound = 0;      ///< proved for the objective [steps]
-  bool optimal = false;               ///< plan cost == optimum, proved
-  std::string certified_by;           ///< who proved it; empty unless optimal
-  std::string message;                ///< a sentence for people
-  std::uint64_t high_level_nodes = 0;     ///< expanded nodes of the solver's own tree
-  std::uint64_t low_level_expansions = 0; ///< expanded states of single-robot searches
+  std::optional<Plan> plan;                ///< set exactly when kSolved; paths end at the arrival
+  std::uint64_t lower_bound = 0;           ///< proved for the objective [steps]
+  bool optimal = false;                    ///< plan cost == optimum, proved
+  std::string certified_by;                ///< who proved it; empty unless optimal
+  std::string message;                     ///< a sentence for people
+  std::uint64_t high_level_nodes = 0;      ///< expanded nodes of the solver's own tree
+  std::uint64_t low_level_expansions = 0;  ///< expanded states of single-robot searches
 };
 
 /// What every solver is told beside the instance.
@@ -43,5 +43,14 @@ class Solver {
   /// exceptions.
   virtual SolveResult solve(const Instance& instance, const Deadline& deadline) const = 0;
 };
+
+/// The lower bound that shortest paths give for an objective [steps]. @pre no robot is cut off.
+std::uint64_t lowerBound(const Instance& instance, Objective objective);
+/// kUnsolvable, with a message that names the robot that cannot reach its goal.
+SolveResult cutOffResult(std::uint32_t robot);
+/// What ended a search whose deadline has expired: kCancelled or kTimeout.
+Termination interruptionOf(const Deadline& deadline);
+/// Marks a solved result as optimal when its cost meets its lower bound.
+void certifyByLowerBound(SolveResult& result, Objective objective, const std::string& solver);
 
 }  // namespace split_mapf

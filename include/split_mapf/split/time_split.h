@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "split_mapf/core/deadline.h"
+#include "split_mapf/core/instance.h"
+#include "split_mapf/split/decomposition.h"
+
+namespace split_mapf {
+
+/// Where on its way a robot should be when a piece ends.
+enum class TimeSplitVariant {
+  kMakespan,    ///< at its share of its own way (the paper's Algorithm 1)
+  kSumOfCosts,  ///< as far as the piece's time allows, home if that suffices (section III-B)
+};
+
+struct TimeSplitOptions {
+  std::vector<double> ratios;  ///< shares of the time, each > 0; k = ratios.size() pieces
+  TimeSplitVariant variant = TimeSplitVariant::kMakespan;
+  std::uint64_t seed = 0;  ///< breaks ties between equally good intermediate states
+};
+
+/// Cuts an instance in time: a sequence of pieces, each on the whole grid with all robots, each
+/// ending in the intermediate states in which the next begins.
+/// Source: Guo, Han and Yu 2021, Algorithm 1. Deviations: intermediate states are chosen piece by
+/// piece from where the robots then are; a candidate v of a robot at s with goal g is rated by how
+/// far d(s,v) and d(v,g) exceed the steps T1 and T2 that this piece and the rest may take, then by
+/// its detour, then by its distance from the robot's share. So pieces cost no step more than the
+/// whole where free cells on shortest paths exist, which the paper's own widening (d(s,v) and
+/// d(v,g) together one step off any grid vertex) does not reach. Equals are drawn by the seed.
+/// A piece in which no robot has to move is left out. @return nothing when the deadline expired.
+/// @pre no robot is cut off from its goal. Cost: the cells on shortest paths, a robot and piece.
+std::optional<Decomposition> splitTime(const Instance& instance, const TimeSplitOptions& options,
+                                       const Deadline& deadline);
+
+}  // namespace split_mapf

@@ -1,0 +1,38 @@
+#include "split_mapf/core/option_values.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "split_mapf/core/error.h"
+
+namespace split_mapf {
+
+std::string OptionValues::choice(const std::string& name, const std::string& fallback,
+                                 const std::vector<std::string>& choices) const {
+  const auto found = values_.find(name);
+  if (found == values_.end()) return fallback;
+  if (std::find(choices.begin(), choices.end(), found->second) != choices.end()) {
+    return found->second;
+  }
+  std::string expected;
+  for (const std::string& choice : choices) expected += (expected.empty() ? "" : ", ") + choice;
+  throw OptionError("option " + name + "=" + found->second + ": expected one of " + expected);
+}
+
+std::uint64_t OptionValues::count(const std::string& name, std::uint64_t fallback) const {
+  const auto found = values_.find(name);
+  if (found == values_.end()) return fallback;
+  const std::string& text = found->second;
+  const bool digits = !text.empty() && text.size() < 19 &&
+                      text.find_first_not_of("0123456789") == std::string::npos;
+  if (!digits) {
+    throw OptionError("option " + name + "=" + text + ": expected a whole number, 0 or greater");
+  }
+  return std::stoull(text);
+}
+
+bool OptionValues::flag(const std::string& name, bool fallback) const {
+  return choice(name, fallback ? "true" : "false", {"true", "false"}) == "true";
+}
+
+}  // namespace split_mapf

@@ -1,0 +1,58 @@
+#include <cmath>
+
+#include "pipeline/plan_run.h"
+#include "split_mapf/core/error.h"
+#include "split_mapf/core/named_values.h"
+#include "split_mapf/split/split_options.h"
+
+namespace split_mapf {
+namespace {
+
+SplitSpec checkSplit(const PlanRequest& request,
+                     const std::map<std::string, std::string>& options) {
+  SplitSpec split = parseSplitSpec(request.split);
+  if (split.kind == SplitSpec::Kind::kAuto) split = SplitSpec{};
+  if (split.space) {
+    throw SplitSpecError("split '" + request.split +
+                         "': space splits are not available yet; time splits (Kt) and none are");
+  }
+  // Reading them finds what is wrong with them, whether or not this split uses them.
+  timeSplitOptions(options, split.time_ratios, request.objective, request.seed);
+  if (!options.empty() && split.kind == SplitSpec::Kind::kNone) {
+    throw OptionError("split options need a split, but split '" + request.split + "' makes none");
+  }
+  return split;
+}
+
+void checkNumbers(const PlanRequest& request) {
+  if (!std::isfinite(request.suboptimality) || request.suboptimality < 1) {
+    throw OptionError("suboptimality " + std::to_string(request.suboptimality) +
+                      " is out of range: a number of at least 1 is expected");
+  }
+  if (std::isnan(request.time_limit_sec) || request.time_limit_sec < 0) {
+    throw OptionError("time limit " + std::to_string(request.time_limit_sec) +
+                      " is out of range: seconds, 0 or more, are expected");
+  }
+  if (request.refine_sec != 0) {
+    throw OptionError("refinement is not available yet: only 0 seconds of it are possible");
+  }
+}
+
+}  // namespace
+
+CheckedRequest check(const PlanRequest& request, const SolverRegistry& solvers) {
+  CheckedRequest checked;
+  checked.asked = request;
+  checkNumbers(request);
+  checked.solver = request.solver == "auto" ? "ecbs" : request.solver;
+  checked.solver_options.objective = request.objective;
+  checked.solver_options.suboptimality = request.suboptimality;
+  checked.solver_options.seed = request.seed;
+  checked.solver_options.values = parseNamedValues(request.solver_options, "solver option");
+  solvers.create(checked.solver, checked.solver_options);
+  checked.split_options = parseNamedValues(request.split_options, "split option");
+  checked.split = checkSplit(request, checked.split_options);
+  return checked;
+}
+
+}  // namespace split_mapf

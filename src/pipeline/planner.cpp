@@ -1,0 +1,14 @@
+#include "split_mapf/pipeline/planner.h"
+
+#include "pipeline/plan_run.h"
+
+namespace split_mapf {
+
+void Planner::requireValid(const PlanRequest& request) const { check(request, solvers_); }
+
+PlanReport Planner::plan(const Instance& instance, const PlanRequest& request,
+                         const Deadline& deadline, const ProgressCallback& progress) const {
+  return PlanRun(instance, check(request, solvers_), solvers_, executor_, deadline, progress).run();
+}
+
+}  // namespace split_mapf

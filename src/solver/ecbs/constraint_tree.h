@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "solver/ecbs/conflicts.h"
+
+namespace split_mapf {
+
+/// A node of the constraint tree. It holds only what differs from its parent.
+struct TreeNode {
+  static constexpr std::uint32_t kNoParent = 0xffffffffU;
+
+  std::uint32_t parent = kNoParent;
+  Constraint constraint;          ///< added by this node; the root has none
+  std::uint32_t robot_bound = 0;  ///< lower bound of the constrained robot's path [steps]
+  std::uint64_t lower_bound = 0;  ///< of every plan below this node [steps]
+  std::uint64_t cost = 0;         ///< of the node's plan, conflicts and all [steps]
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> paths;  ///< (robot, path number), new here
+  std::vector<Conflict> conflicts;                             ///< one a pair of robots
+  bool closed = false;
+};
+
+/// The constraint tree with its OPEN list, by lower bound, and its FOCAL list: the open nodes whose
+/// cost is at most w times the least lower bound, fewest conflicts first.
+class ConstraintTree {
+ public:
+  explicit ConstraintTree(double suboptimality) : suboptimality_(suboptimality) {}
+
+  std::uint32_t addPath(Path path);
+  const Path& path(std::uint32_t number) const { return paths_[number]; }
+  /// Appends a node and opens it. Returns its number.
+  std::uint32_t add(TreeNode node);
+  TreeNode& node(std::uint32_t number) { return nodes_[number]; }
+  const TreeNode& node(std::uint32_t number) const { return nodes_[number]; }
+  bool empty();
+  /// The least lower bound of an open node. @pre !empty()
+  std::uint64_t lowerBound();
+  /// The best node of FOCAL; it stays open until close(). @pre !empty()
+  std::uint32_t best();
+  void close(std::uint32_t number);
+  /// The greatest cost allowed under a lower bound.
+  std::uint64_t limit(std::uint64_t lower_bound) const;
+
+ private:
+  struct Entry {
+    std::uint64_t key;
+    std::uint64_t tie;
+    std::uint32_t node;
+  };
+  struct Later {
+    bool operator()(const Entry& a, const Entry& b) const {
+      if (a.key != b.key) return a.key > b.key;
+      if (a.tie != b.tie) return a.tie > b.tie;
+      return a.node < b.node;  // newest first
+    }
+  };
+  using Queue = std::priority_queue<Entry, std::vector<Entry>, Later>;
+  void dropClosed(Queue& queue);
+
+  double suboptimality_;
+  std::deque<TreeNode> nodes_;
+  std::deque<Path> paths_;
+  Queue open_;     // by lower bound
+  Queue waiting_;  // not in FOCAL yet, by cost
+  Queue focal_;    // by conflicts, then cost
+};
+
+}  // namespace split_mapf

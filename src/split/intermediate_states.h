@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "split_mapf/core/deadline.h"
+#include "split_mapf/core/instance.h"
+#include "split_mapf/core/random.h"
+
+namespace split_mapf {
+
+/// Steps that the piece to come and all pieces after it should take at most.
+struct TimeShare {
+  std::uint32_t piece = 0;  ///< T1
+  std::uint32_t rest = 0;   ///< T2
+};
+
+/// Chooses, robot by robot, where each should be when a piece of a time split ends. Keeps its
+/// memory between pieces; not thread-safe.
+class IntermediateStates {
+ public:
+  explicit IntermediateStates(const Instance& instance);
+
+  /// @param from    where the robots are when the piece begins.
+  /// @param target  steps on its way that each robot should have made; a preference.
+  /// @return one vertex a robot, all different; empty when the deadline expired.
+  std::vector<Vertex> choose(const std::vector<Vertex>& from,
+                             const std::vector<std::uint32_t>& target, TimeShare share,
+                             RandomEngine& engine, const Deadline& deadline);
+
+ private:
+  struct Rating {
+    std::uint32_t excess;     // steps beyond T1 and T2
+    std::uint32_t detour;     // steps beyond the shortest way
+    std::uint32_t deviation;  // from the target
+  };
+  struct Query {
+    std::uint32_t robot;
+    Vertex from;
+    std::uint32_t length;  // of the shortest way from here
+    std::uint32_t target;
+    TimeShare share;
+  };
+
+  Vertex chooseOne(const Query& query, RandomEngine& engine);
+  void searchWithDetour(const Query& query, std::uint32_t detour, RandomEngine& engine);
+  void consider(const Query& query, Vertex v, std::uint32_t walked, RandomEngine& engine);
+  static bool better(const Rating& a, const Rating& b);
+
+  const Instance& instance_;
+  std::vector<bool> used_;
+  std::vector<std::uint32_t> seen_;    // number of the search that met the vertex last
+  std::vector<std::uint32_t> walked_;  // distance from the robot, valid where seen
+  std::vector<Vertex> queue_;
+  std::uint32_t search_number_ = 0;
+
+  // The best candidate so far, and how many as good as it were met.
+  Vertex best_ = kNoVertex;
+  Rating best_rating_{};
+  std::uint64_t equals_ = 0;
+};
+
+}  // namespace split_mapf

@@ -1,0 +1,42 @@
+#include "split_mapf/split/split_options.h"
+
+#include <algorithm>
+
+#include "split_mapf/core/error.h"
+#include "split_mapf/core/option_values.h"
+
+namespace split_mapf {
+
+const std::vector<SplitOptionInfo>& splitOptions() {
+  static const std::vector<SplitOptionInfo> options = {
+      {"variant", "the objective's own",
+       "where robots are at the seams of a time split: makespan (each at its share of its way) or "
+       "sum_of_costs (as far as time allows)"},
+  };
+  return options;
+}
+
+TimeSplitOptions timeSplitOptions(const std::map<std::string, std::string>& values,
+                                  const std::vector<double>& ratios, Objective objective,
+                                  std::uint64_t seed) {
+  for (const auto& entry : values) {
+    const auto& known = splitOptions();
+    if (std::any_of(known.begin(), known.end(),
+                    [&](const SplitOptionInfo& o) { return o.name == entry.first; })) {
+      continue;
+    }
+    std::string offered;
+    for (const SplitOptionInfo& o : known) offered += (offered.empty() ? "" : ", ") + o.name;
+    throw OptionError("split option '" + entry.first + "' is unknown; there are: " + offered);
+  }
+  const std::string variant =
+      OptionValues(values).choice("variant", toString(objective), {"makespan", "sum_of_costs"});
+  TimeSplitOptions options;
+  options.ratios = ratios;
+  options.variant =
+      variant == "makespan" ? TimeSplitVariant::kMakespan : TimeSplitVariant::kSumOfCosts;
+  options.seed = seed;
+  return options;
+}
+
+}  // namespace split_mapf
