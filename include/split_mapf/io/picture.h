@@ -32,8 +32,9 @@ struct Picture {
 
 /// How a picture is drawn. The defaults suit every size of map.
 struct PictureOptions {
-  std::uint32_t cell_px = 0;    ///< pixels a cell, 1 .. 256; 0 = so that the picture has about
-                                ///< 1000 pixels, with 3 a cell at the least
+  std::uint32_t cell_px =
+      0;  ///< pixels a cell, 1 .. 256; 0 = so that the picture has about
+          ///< 1000 pixels, with 3 to 64 a cell (fewer where it would get too large)
   bool grid_lines = true;       ///< lines between free cells, where a cell has at least 12 pixels
   double line_width_cells = 0;  ///< width of a path; 0 = thinner the more robots there are
   double opacity = 0;           ///< of a path, at most 1; 0 = fainter the more robots there are
@@ -43,7 +44,7 @@ struct PictureOptions {
 /// goal as a disc. Robots are told apart by their index, so that one robot keeps its colour in all
 /// pictures of the same number of robots.
 /// @throws InputError naming robot and step when a path is empty or leaves the grid (a blocked
-/// cell or a jump is drawn as it is), or when the picture would exceed 2^28 pixels; OptionError for
+/// cell or a jump is drawn as it is), or when the picture would exceed 2^27 pixels; OptionError for
 /// an option out of range. Cost: O(pixels + entries * cell_px^2). Thread-safe.
 Picture drawPlan(const Grid& grid, const CellPaths& paths, const PictureOptions& options = {});
 

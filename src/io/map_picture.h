@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace split_mapf {
+
+/// Greatest side of a map's picture, the greatest of a Grid [pixels].
+constexpr std::uint32_t kMaxPictureSide = 1U << 15;
+
+/// A picture as far as map_server cares. Row-major from the top.
+struct MapPicture {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<float> brightness;  ///< mean of a pixel's colour channels, 0 .. 255
+  std::vector<float> alpha;       ///< opacity 0 .. 255; empty without an alpha channel
+};
+
+/// Reads a PGM picture (P2 or P5, maxval 1 .. 65535, scaled to 0 .. 255). Strict: no sample above
+/// maxval, no sample too few, nothing after the last one.
+/// @param path  for messages; @param bytes  the file. @throws InputError: "path:line" for P2,
+/// "path: byte N" for P5.
+MapPicture parsePgm(const std::string& path, const std::string& bytes);
+
+/// Reads a PNG picture of any colour type, 1 to 16 bit, not interlaced.
+/// @param path  for messages; @param bytes  the file. @throws InputError: "path: byte N".
+MapPicture parsePng(const std::string& path, const std::string& bytes);
+
+}  // namespace split_mapf

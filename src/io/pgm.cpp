@@ -1,0 +1,153 @@
+#include <cctype>
+
+#include "io/file_bytes.h"
+#include "io/map_picture.h"
+
+namespace split_mapf {
+namespace {
+
+bool isBlank(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
+
+// Walks over the bytes of one PGM file and knows how to name the place it is at.
+class PgmReader {
+ public:
+  PgmReader(const std::string& path, const std::string& bytes)
+      : path_(path), bytes_(bytes), plain_(bytes.compare(0, 2, "P2") == 0) {}
+
+  MapPicture read() {
+    if (!plain_ && bytes_.compare(0, 2, "P5") != 0) {
+      failAtByte(path_, 0, "read " + quoted(bytes_.substr(0, 2)) + ", expected 'P2' or 'P5'");
+    }
+    position_ = 2;
+    if (position_ < bytes_.size() && !isBlank(bytes_[position_]) && bytes_[position_] != '#') {
+      fail("read " + quoted(bytes_.substr(0, 3)) + ", expected 'P2' or 'P5' and white space");
+    }
+    MapPicture picture;
+    picture.width = readNumber("the width", 1, kMaxPictureSide);
+    picture.height = readNumber("the height", 1, kMaxPictureSide);
+    maxval_ = readNumber("the maximum value", 1, 65535);
+    samples_ = std::size_t{picture.width} * picture.height;
+    picture.brightness = plain_ ? readPlainSamples() : readBinarySamples();
+    return picture;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const {
+    if (plain_) failAtLine(path_, line_, message);
+    failAtByte(path_, position_, message);
+  }
+
+  void skipBlanksAndComments() {
+    bool in_comment = false;
+    for (; position_ < bytes_.size(); ++position_) {
+      const char c = bytes_[position_];
+      if (c == '\n') {
+        ++line_;
+        in_comment = false;
+      } else if (c == '#') {
+        in_comment = true;
+      } else if (!in_comment && !isBlank(c)) {
+        return;
+      }
+    }
+  }
+
+  // The word at the present place, up to white space or a comment.
+  std::string wordHere() const {
+    std::size_t end = position_;
+    while (end < bytes_.size() && !isBlank(bytes_[end]) && bytes_[end] != '#') ++end;
+    return bytes_.substr(position_, end - position_);
+  }
+
+  std::uint32_t readNumber(const std::string& what, std::uint32_t least, std::uint32_t most) {
+    skipBlanksAndComments();
+    std::uint32_t value = 0;
+    std::size_t end = position_;
+    while (end < bytes_.size() && std::isdigit(static_cast<unsigned char>(bytes_[end])) != 0 &&
+           value <= most) {
+      value = value * 10 + static_cast<std::uint32_t>(bytes_[end++] - '0');
+    }
+    const bool ended = end == bytes_.size() || isBlank(bytes_[end]) || bytes_[end] == '#';
+    if (end == position_ || !ended || value < least || value > most) {
+      const std::string read =
+          position_ == bytes_.size() ? "the end of the file" : quoted(wordHere());
+      fail("read " + read + ", expected " + what + ", " + std::to_string(least) + " to " +
+           std::to_string(most));
+    }
+    position_ = end;
+    return value;
+  }
+
+  float scaled(std::uint32_t value) const {
+    return static_cast<float>(value * 255.0 / static_cast<double>(maxval_));
+  }
+
+  std::string countOf(std::size_t done) const {
+    return std::to_string(done) + " of " + std::to_string(samples_);
+  }
+
+  std::vector<float> readPlainSamples() {
+    std::vector<float> values;
+    for (std::size_t i = 0; i < samples_; ++i) {
+      values.push_back(scaled(readNumber("sample " + countOf(i + 1), 0, maxval_)));
+    }
+    skipBlanksAndComments();
+    if (position_ < bytes_.size()) {
+      fail("read " + quoted(wordHere()) + ", expected the end of the file after " +
+           std::to_string(samples_) + " samples");
+    }
+    return values;
+  }
+
+  std::vector<float> readBinarySamples() {
+    if (position_ == bytes_.size() || !isBlank(bytes_[position_])) {
+      fail("read " + (position_ == bytes_.size() ? "the end of the file" : quoted(wordHere())) +
+           ", expected one white space and the samples");
+    }
+    ++position_;
+    const std::size_t bytes_a_sample = maxval_ > 255 ? 2 : 1;
+    const std::size_t left = bytes_.size() - position_;
+    if (left != samples_ * bytes_a_sample) failOfLength(left, samples_ * bytes_a_sample);
+    std::vector<float> values(samples_);
+    for (float& value : values) {
+      std::uint32_t sample = static_cast<unsigned char>(bytes_[position_]);
+      if (bytes_a_sample == 2) {
+        sample = sample << 8U | static_cast<unsigned char>(bytes_[position_ + 1]);
+      }
+      if (sample > maxval_) {
+        fail("read sample " + std::to_string(sample) + ", expected at most the maximum value " +
+             std::to_string(maxval_));
+      }
+      value = scaled(sample);
+      position_ += bytes_a_sample;
+    }
+    return values;
+  }
+
+  [[noreturn]] void failOfLength(std::size_t left, std::size_t needed) {
+    position_ += left < needed ? left : needed;
+    if (left < needed) {
+      fail("read the end of the file after " + std::to_string(left) +
+           " bytes of samples, expected " + std::to_string(needed));
+    }
+    fail("read " + std::to_string(left - needed) +
+         " more bytes, expected the end of the file after " + std::to_string(needed) +
+         " bytes of samples");
+  }
+
+  const std::string& path_;
+  const std::string& bytes_;
+  const bool plain_;
+  std::size_t position_ = 0;
+  std::size_t line_ = 1;
+  std::uint32_t maxval_ = 0;
+  std::size_t samples_ = 0;
+};
+
+}  // namespace
+
+MapPicture parsePgm(const std::string& path, const std::string& bytes) {
+  return PgmReader(path, bytes).read();
+}
+
+}  // namespace split_mapf

@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "io/file_bytes.h"
+#include "split_mapf/core/error.h"
+#include "split_mapf/io/plan_json.h"
+
+namespace split_mapf {
+namespace {
+
+using Json = nlohmann::json;
+
+[[noreturn]] void fail(const std::string& path, const std::string& message) {
+  throw InputError(path + ": " + message);
+}
+
+// A JSON value as a message shows it, cut where it is long.
+std::string shown(const Json& value) {
+  return quoted(value.dump(-1, ' ', true, Json::error_handler_t::replace));
+}
+
+// Strips what nlohmann-json puts before the reason: "[json.exception...] parse error at ...: ".
+std::string reasonOf(const Json::parse_error& error) {
+  const std::string text = error.what();
+  const std::size_t colon = text.find(": ");
+  return colon == std::string::npos ? text : text.substr(colon + 2);
+}
+
+Json parse(const std::string& path, const std::string& bytes) {
+  int lists_of_paths = 0;
+  const auto count = [&](int depth, Json::parse_event_t event, Json& parsed) {
+    if (event == Json::parse_event_t::key && depth == 1 && parsed == "paths") ++lists_of_paths;
+    return true;
+  };
+  Json document;
+  try {
+    document = Json::parse(bytes, count);
+  } catch (const Json::parse_error& error) {
+    const std::size_t end = std::min(bytes.size(), error.byte > 0 ? error.byte - 1 : 0);
+    const auto line =
+        std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+    failAtLine(path, static_cast<std::size_t>(line) + 1,
+               "read malformed JSON, expected a plan: " + reasonOf(error));
+  }
+  if (!document.is_object()) fail(path, "read " + shown(document) + ", expected a JSON object");
+  if (lists_of_paths == 0) fail(path, "read no 'paths', expected a list of paths, one a robot");
+  if (lists_of_paths > 1) fail(path, "read 'paths' a second time, expected it once");
+  return document;
+}
+
+// One plan file being read: its name, and the place that a message names.
+struct Place {
+  const std::string& path;
+  std::size_t robot = 0;
+  std::size_t step = 0;
+
+  [[noreturn]] void failAtStep(const std::string& message) const {
+    fail(path, "paths, robot " + std::to_string(robot) + ", step " + std::to_string(step) + ": " +
+                   message);
+  }
+};
+
+std::int32_t coordinateOf(const Json& value, const Place& place, const char* axis) {
+  using Limits = std::numeric_limits<std::int32_t>;
+  const bool fits = value.is_number_unsigned()
+                        ? value.get<std::uint64_t>() <= static_cast<std::uint64_t>(Limits::max())
+                        : value.is_number_integer() && value.get<std::int64_t>() >= Limits::min();
+  if (!fits) {
+    place.failAtStep(std::string("read ") + axis + " = " + shown(value) +
+                     ", expected a 32-bit integer");
+  }
+  return value.get<std::int32_t>();
+}
+
+Cell cellOf(const Json& value, const Place& place) {
+  if (!value.is_array() || value.size() != 2) {
+    place.failAtStep("read " + shown(value) + ", expected [x,y]");
+  }
+  return {coordinateOf(value[0], place, "x"), coordinateOf(value[1], place, "y")};
+}
+
+}  // namespace
+
+CellPaths readPlanJson(const std::string& path) {
+  const Json document = parse(path, readFile(path));
+  const Json& lists = document.at("paths");
+  if (!lists.is_array()) fail(path, "paths: read " + shown(lists) + ", expected a list of paths");
+  CellPaths paths;
+  paths.reserve(lists.size());
+  for (const Json& list : lists) {
+    const std::size_t robot = paths.size();
+    if (!list.is_array()) {
+      fail(path, "paths, robot " + std::to_string(robot) + ": read " + shown(list) +
+                     ", expected a list of cells");
+    }
+    std::vector<Cell>& cells = paths.emplace_back();
+    cells.reserve(list.size());
+    for (const Json& cell : list) cells.push_back(cellOf(cell, {path, robot, cells.size()}));
+  }
+  return paths;
+}
+
+}  // namespace split_mapf

@@ -1,0 +1,145 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <sstream>
+
+#include "io/file_bytes.h"
+#include "split_mapf/io/plan_json.h"
+
+namespace split_mapf {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string dumped(const Json& value) {
+  return value.dump(-1, ' ', true, Json::error_handler_t::replace);
+}
+
+Json finiteOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+template <typename T>
+Json valueIf(bool meaningful, T value) {
+  return meaningful ? Json(value) : Json(nullptr);
+}
+
+Json gapOf(const PlanReport& report) {
+  const double cost = report.objective == Objective::kMakespan
+                          ? static_cast<double>(report.makespan)
+                          : static_cast<double>(report.sum_of_costs);
+  if (!report.plan) return nullptr;
+  if (report.proved_lower_bound <= 0) return cost == 0 ? Json(0.0) : Json(nullptr);
+  return finiteOrNull(cost / report.proved_lower_bound - 1);
+}
+
+void writeField(std::ostream& out, const std::string& name, const Json& value) {
+  out << "  \"" << name << "\": " << dumped(value) << ",\n";
+}
+
+// A list with one entry a line, so that long results stay readable.
+void writeList(std::ostream& out, const std::string& name, const std::vector<std::string>& rows) {
+  out << "  \"" << name << "\": [";
+  const char* separator = "\n    ";
+  for (const std::string& row : rows) {
+    out << separator << row;
+    separator = ",\n    ";
+  }
+  out << (rows.empty() ? "]" : "\n  ]");
+}
+
+void writeRequest(std::ostream& out, const PlanReport& report) {
+  writeField(out, "status", toString(report.termination));
+  writeField(out, "message", report.message);
+  writeField(out, "solver", report.solver);
+  writeField(out, "split", report.split);
+  writeField(out, "objective", toString(report.objective));
+  writeField(out, "seed", report.seed);
+  writeField(out, "threads", report.threads);
+  writeField(out, "agents", report.robots);
+}
+
+void writeCosts(std::ostream& out, const PlanReport& report) {
+  const bool planned = report.plan.has_value();
+  const bool bounded = !report.cut_off_robot;
+  writeField(out, "makespan", valueIf(planned, report.makespan));
+  writeField(out, "sum_of_costs", valueIf(planned, report.sum_of_costs));
+  writeField(out, "makespan_lower_bound", valueIf(bounded, report.makespan_lower_bound));
+  writeField(out, "sum_of_costs_lower_bound", valueIf(bounded, report.sum_of_costs_lower_bound));
+  writeField(out, "proved_lower_bound",
+             bounded ? finiteOrNull(report.proved_lower_bound) : Json(nullptr));
+  writeField(out, "gap", gapOf(report));
+  writeField(out, "optimal", report.optimal);
+  writeField(out, "certified_by", report.certified_by);
+}
+
+void writeProgress(std::ostream& out, const PlanReport& report) {
+  writeField(out, "runtime_s", finiteOrNull(report.runtime_sec));
+  writeField(out, "first_plan_s",
+             report.plan ? finiteOrNull(report.first_plan_sec) : Json(nullptr));
+  std::vector<std::string> rows;
+  for (const TraceRow& row : report.trace) {
+    rows.push_back(dumped(Json::array({finiteOrNull(row.seconds), row.makespan, row.sum_of_costs,
+                                       finiteOrNull(row.proved_lower_bound)})));
+  }
+  writeList(out, "trace", rows);
+  out << ",\n  \"stages\": {";
+  const char* separator = "";
+  for (const auto& [name, seconds] : report.stages) {
+    out << separator << dumped(name) << ": " << dumped(finiteOrNull(seconds));
+    separator = ", ";
+  }
+  out << "},\n";
+}
+
+void writeSubproblems(std::ostream& out, const PlanReport& report) {
+  std::vector<std::string> rows;
+  for (const SubproblemReport& piece : report.subproblems) {
+    rows.push_back(dumped(Json{{"phase", piece.phase},
+                               {"region", piece.region},
+                               {"agents", piece.agents},
+                               {"horizon", piece.horizon},
+                               {"solver", piece.solver},
+                               {"status", piece.status},
+                               {"seconds", finiteOrNull(piece.seconds)}}));
+  }
+  writeList(out, "subproblems", rows);
+  out << ",\n";
+}
+
+std::string pathRow(const Grid& grid, const Path& path) {
+  std::string row = "[";
+  for (const Vertex v : path) {
+    const Cell cell = grid.cellOf(v);
+    if (row.size() > 1) row += ',';
+    row += '[';
+    row += std::to_string(cell.x);
+    row += ',';
+    row += std::to_string(cell.y);
+    row += ']';
+  }
+  return row + "]";
+}
+
+}  // namespace
+
+void writePlanJson(std::ostream& out, const Grid& grid, const PlanReport& report) {
+  out << "{\n";
+  writeRequest(out, report);
+  writeCosts(out, report);
+  writeProgress(out, report);
+  writeSubproblems(out, report);
+  writeField(out, "layout", nullptr);
+  std::vector<std::string> rows;
+  if (report.plan) {
+    for (const Path& path : report.plan->paths) rows.push_back(pathRow(grid, path));
+  }
+  writeList(out, "paths", rows);
+  out << "\n}\n";
+}
+
+void writePlanJson(const std::string& path, const Grid& grid, const PlanReport& report) {
+  std::ostringstream out;
+  writePlanJson(out, grid, report);
+  writeFile(path, out.str());
+}
+
+}  // namespace split_mapf

@@ -1,0 +1,237 @@
+#include "io/png_structure.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+#include "io/file_bytes.h"
+#include "io/map_picture.h"
+
+namespace split_mapf {
+namespace {
+
+const std::string kSignature("\x89PNG\r\n\x1a\n", 8);
+constexpr int kPalette = 3;
+
+std::uint32_t bigEndianAt(const std::string& bytes, std::size_t i) {
+  std::uint32_t value = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    value = value << 8U | static_cast<unsigned char>(bytes[i + k]);
+  }
+  return value;
+}
+
+// Number of channels of a colour type; 0 for a combination that PNG does not have.
+std::size_t channelsOf(int colour_type, int bit_depth) {
+  static const std::map<int, std::pair<std::size_t, std::set<int>>> kKinds = {
+      {0, {1, {1, 2, 4, 8, 16}}},
+      {2, {3, {8, 16}}},
+      {kPalette, {1, {1, 2, 4, 8}}},
+      {4, {2, {8, 16}}},
+      {6, {4, {8, 16}}}};
+  const auto kind = kKinds.find(colour_type);
+  return kind == kKinds.end() || kind->second.second.count(bit_depth) == 0 ? 0 : kind->second.first;
+}
+
+// Decompresses image data piece by piece and keeps count of it; the pixels are left to GIL.
+class ImageDataCheck {
+ public:
+  explicit ImageDataCheck(std::size_t row_bytes) : row_bytes_(row_bytes) { inflateInit(&stream_); }
+  ~ImageDataCheck() { inflateEnd(&stream_); }
+  ImageDataCheck(const ImageDataCheck&) = delete;
+  ImageDataCheck& operator=(const ImageDataCheck&) = delete;
+
+  /// What is wrong with the data, or nothing.
+  std::string run(std::string data, std::size_t expected) {
+    stream_.next_in = reinterpret_cast<Bytef*>(&data[0]);
+    stream_.avail_in = static_cast<uInt>(data.size());
+    int status = Z_OK;
+    while (status == Z_OK && bad_filter_ < 0 && bytes_ <= expected) {
+      stream_.next_out = block_.data();
+      stream_.avail_out = static_cast<uInt>(block_.size());
+      status = inflate(&stream_, Z_NO_FLUSH);
+      count(block_.size() - stream_.avail_out);
+    }
+    if (bad_filter_ >= 0) {
+      return "read filter " + std::to_string(bad_filter_) + " in the image data, expected 0 to 4";
+    }
+    if (status != Z_OK && status != Z_STREAM_END && status != Z_BUF_ERROR) {
+      return "read image data that cannot be decompressed, expected zlib data";
+    }
+    if (bytes_ > expected || (status == Z_STREAM_END && stream_.avail_in > 0)) {
+      return "read too much image data, expected " + std::to_string(expected) +
+             " bytes when decompressed";
+    }
+    if (status == Z_STREAM_END && bytes_ == expected) return "";
+    return "read image data that ends after " + std::to_string(bytes_) +
+           " bytes when decompressed, expected " + std::to_string(expected);
+  }
+
+ private:
+  // Every row begins with the number of its filter.
+  void count(std::size_t produced) {
+    const std::size_t row = (bytes_ + row_bytes_ - 1) / row_bytes_;
+    for (std::size_t i = row * row_bytes_; i < bytes_ + produced; i += row_bytes_) {
+      const int filter = block_[i - bytes_];
+      if (filter > 4 && bad_filter_ < 0) bad_filter_ = filter;
+    }
+    bytes_ += produced;
+  }
+
+  z_stream stream_{};
+  std::size_t row_bytes_;
+  std::size_t bytes_ = 0;
+  int bad_filter_ = -1;
+  std::array<unsigned char, 1U << 16> block_{};
+};
+
+// Walks over the chunks of one PNG file.
+class PngChecker {
+ public:
+  PngChecker(const std::string& path, const std::string& bytes) : path_(path), bytes_(bytes) {}
+
+  PngStructure check() {
+    if (!isPng(bytes_)) failAtByte(path_, 0, "expected the signature of a PNG file");
+    found_.essential_bytes = kSignature;
+    std::size_t position = kSignature.size();
+    std::string type;
+    while (type != "IEND") {
+      type = takeChunk(position, type.empty());
+      position = next_;
+    }
+    if (position != bytes_.size()) {
+      failAtByte(path_, position,
+                 "read " + std::to_string(bytes_.size() - position) +
+                     " more bytes, expected the end of the file after IEND");
+    }
+    requireImageData(position);
+    return std::move(found_);
+  }
+
+ private:
+  std::string takeChunk(std::size_t position, bool first) {
+    const std::size_t left = bytes_.size() - position;
+    if (left < 12) {
+      failAtByte(path_, bytes_.size(),
+                 "read the end of the file, expected a whole chunk from byte " +
+                     std::to_string(position) + " on");
+    }
+    const std::uint32_t length = bigEndianAt(bytes_, position);
+    const std::string type = bytes_.substr(position + 4, 4);
+    if (first && type != "IHDR") {
+      failAtByte(path_, position + 4, "read chunk " + quoted(type) + ", expected 'IHDR'");
+    }
+    if (length > left - 12) {
+      failAtByte(path_, bytes_.size(),
+                 "read the end of the file, expected the " + std::to_string(length) +
+                     " bytes of chunk " + quoted(type) + " from byte " +
+                     std::to_string(position + 8) + " on, and its checksum");
+    }
+    requireChecksum(position, length, type);
+    next_ = position + 12 + length;
+    keep(position, length, type);
+    return type;
+  }
+
+  void requireChecksum(std::size_t position, std::uint32_t length, const std::string& type) const {
+    const auto* data = reinterpret_cast<const Bytef*>(bytes_.data()) + position + 4;
+    const auto actual = static_cast<std::uint32_t>(crc32(0, data, length + 4));
+    if (actual == bigEndianAt(bytes_, position + 8 + length)) return;
+    failAtByte(
+        path_, position + 8 + length,
+        "read a checksum that does not fit chunk " + quoted(type) + ", expected an undamaged file");
+  }
+
+  void keep(std::size_t position, std::uint32_t length, const std::string& type) {
+    const bool ancillary = (static_cast<unsigned char>(type[0]) & 0x20U) != 0;
+    if (type == "IHDR") {
+      readHeader(position, length);
+    } else if (type == "tRNS") {
+      if (found_.has_alpha) return;
+      found_.has_alpha = true;
+    } else if (type == "PLTE") {
+      has_palette_ = true;
+    } else if (type == "IDAT") {
+      if (image_data_.empty()) first_data_ = position;
+      image_data_.append(bytes_, position + 8, length);
+    } else if (ancillary) {
+      return;
+    } else if (type != "IEND") {
+      failAtByte(path_, position + 4, "read chunk " + quoted(type) + ", expected one of PNG's own");
+    }
+    found_.essential_bytes.append(bytes_, position, 12 + std::size_t{length});
+  }
+
+  void readHeader(std::size_t position, std::uint32_t length) {
+    const std::size_t data = position + 8;
+    if (length != 13 || found_.width != 0) {
+      failAtByte(
+          path_, position,
+          "read an IHDR chunk of " + std::to_string(length) + " bytes, expected one of 13 bytes");
+    }
+    found_.width = sideAt(data, "width");
+    found_.height = sideAt(data + 4, "height");
+    found_.bit_depth = static_cast<unsigned char>(bytes_[data + 8]);
+    found_.colour_type = static_cast<unsigned char>(bytes_[data + 9]);
+    channels_ = channelsOf(found_.colour_type, found_.bit_depth);
+    if (channels_ == 0) {
+      failAtByte(path_, data + 8,
+                 "read colour type " + std::to_string(found_.colour_type) + " of " +
+                     std::to_string(found_.bit_depth) +
+                     " bits, expected a combination that PNG has");
+    }
+    if (bytes_[data + 10] != 0 || bytes_[data + 11] != 0) {
+      failAtByte(path_, data + 10, "read an unknown compression or filter, expected 0");
+    }
+    if (bytes_[data + 12] != 0) {
+      failAtByte(path_, data + 12, "read an interlaced picture, expected one without interlacing");
+    }
+    found_.has_alpha = found_.colour_type == 4 || found_.colour_type == 6;
+  }
+
+  std::uint32_t sideAt(std::size_t position, const std::string& name) const {
+    const std::uint32_t side = bigEndianAt(bytes_, position);
+    if (side == 0 || side > kMaxPictureSide) {
+      failAtByte(path_, position,
+                 "read a " + name + " of " + std::to_string(side) + ", expected 1 to " +
+                     std::to_string(kMaxPictureSide));
+    }
+    return side;
+  }
+
+  void requireImageData(std::size_t end) {
+    if (found_.colour_type == kPalette && !has_palette_) {
+      failAtByte(path_, end, "read no PLTE chunk, expected the palette");
+    }
+    if (image_data_.empty()) failAtByte(path_, end, "read no IDAT chunk, expected image data");
+    const std::size_t bits = channels_ * static_cast<std::size_t>(found_.bit_depth) * found_.width;
+    const std::size_t row_bytes = 1 + (bits + 7) / 8;
+    const std::string fault =
+        ImageDataCheck(row_bytes).run(std::move(image_data_), row_bytes * found_.height);
+    if (!fault.empty()) failAtByte(path_, first_data_, fault);
+  }
+
+  const std::string& path_;
+  const std::string& bytes_;
+  PngStructure found_;
+  std::size_t next_ = 0;
+  std::size_t channels_ = 0;
+  std::size_t first_data_ = 0;
+  bool has_palette_ = false;
+  std::string image_data_;
+};
+
+}  // namespace
+
+bool isPng(const std::string& bytes) {
+  return bytes.compare(0, kSignature.size(), kSignature) == 0;
+}
+
+PngStructure checkPng(const std::string& path, const std::string& bytes) {
+  return PngChecker(path, bytes).check();
+}
+
+}  // namespace split_mapf
