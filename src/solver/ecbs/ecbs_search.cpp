@@ -8,6 +8,10 @@ namespace split_mapf {
 namespace {
 
 constexpr std::uint32_t kNoPath = 0xffffffffU;
+// A robot may go this many steps round before a step more weighs like a collision (sum of costs).
+// Measured: with 0 searches of ost003d with 300 robots do not end, without a limit they cost 2 %
+// more; 10 is fast and good on all benchmark maps.
+constexpr std::uint32_t kCheapDetour = 10;
 
 std::uint32_t lengthOf(const Path& path) { return static_cast<std::uint32_t>(path.size()) - 1; }
 
@@ -65,10 +69,9 @@ bool EcbsSearch::plantRoot() {
   for (const std::uint32_t robot : order) {
     bound_of_[robot] = instance_.shortestLength(robot);
     SearchQuery query = queryFor(robot);
-    query.preferred_arrival = objective_ == Objective::kMakespan
-                                  ? static_cast<std::uint32_t>(root.lower_bound)
-                                  : bound_of_[robot];
-    query.latest_arrival = static_cast<std::uint32_t>(tree_.limit(query.preferred_arrival));
+    limitArrival(query, objective_ == Objective::kMakespan
+                            ? static_cast<std::uint32_t>(root.lower_bound)
+                            : bound_of_[robot]);
     Path path = runSearch(query);
     if (interrupted_) return false;
     finder_.find(robot, path, table_, root.conflicts);
@@ -183,8 +186,7 @@ bool EcbsSearch::planChild(std::uint32_t parent, Child& child) {
 
 bool EcbsSearch::planForMakespan(const TreeNode& parent, SearchQuery& query, Child& child) {
   const auto bound = static_cast<std::uint32_t>(parent.lower_bound);
-  query.preferred_arrival = bound;
-  query.latest_arrival = static_cast<std::uint32_t>(tree_.limit(bound));
+  limitArrival(query, bound);
   child.path = runSearch(query);
   child.node.robot_bound = bound_of_[query.robot];
   child.node.lower_bound = bound;
@@ -194,8 +196,7 @@ bool EcbsSearch::planForMakespan(const TreeNode& parent, SearchQuery& query, Chi
   if (child.node.robot_bound == kForever) return false;
   child.node.lower_bound = std::max(bound, child.node.robot_bound);
   if (!child.path.empty()) return true;
-  query.preferred_arrival = static_cast<std::uint32_t>(child.node.lower_bound);
-  query.latest_arrival = static_cast<std::uint32_t>(tree_.limit(child.node.lower_bound));
+  limitArrival(query, static_cast<std::uint32_t>(child.node.lower_bound));
   child.path = runSearch(query);
   return !child.path.empty();
 }
@@ -205,8 +206,7 @@ bool EcbsSearch::planForSumOfCosts(const TreeNode& parent, SearchQuery& query, C
   if (bound == kForever) return false;
   child.node.robot_bound = bound;
   child.node.lower_bound = parent.lower_bound + bound - bound_of_[query.robot];
-  query.preferred_arrival = bound;
-  query.latest_arrival = static_cast<std::uint32_t>(tree_.limit(bound));
+  limitArrival(query, bound);
   child.path = runSearch(query);
   return !child.path.empty();
 }
@@ -253,6 +253,11 @@ SearchQuery EcbsSearch::queryFor(std::uint32_t robot) const {
   query.others = &table_;
   query.mode = OthersAre::kCounted;
   return query;
+}
+
+void EcbsSearch::limitArrival(SearchQuery& query, std::uint32_t bound) const {
+  query.latest_arrival = static_cast<std::uint32_t>(tree_.limit(bound));
+  query.preferred_arrival = objective_ == Objective::kMakespan ? bound : bound + kCheapDetour;
 }
 
 Path EcbsSearch::runSearch(const SearchQuery& query) {

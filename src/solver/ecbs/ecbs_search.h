@@ -40,6 +40,8 @@ class EcbsSearch {
   void completeChild(std::uint32_t parent, Child& child);
   const Conflict& choose(const TreeNode& node) const;
   SearchQuery queryFor(std::uint32_t robot) const;
+  /// Allows paths up to w times `bound`, the lower bound of the robot or of all.
+  void limitArrival(SearchQuery& query, std::uint32_t bound) const;
   Path runSearch(const SearchQuery& query);
   SolveResult finish(SolveResult result, std::uint64_t lower_bound);
 
