@@ -1,0 +1,62 @@
+#include "support/small_instances.h"
+
+#include <memory>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "split_mapf/core/random.h"
+
+namespace split_mapf::test {
+namespace {
+
+std::uint32_t drawBetween(RandomEngine& engine, std::uint32_t least, std::uint32_t most) {
+  return least + static_cast<std::uint32_t>(drawBelow(engine, most - least + 1));
+}
+
+/// Four robots only on maps that keep the oracle fast.
+std::uint32_t mostRobots(std::uint32_t free_cells) {
+  if (free_cells <= 12) return 4;
+  return free_cells <= 20 ? 3 : 2;
+}
+
+}  // namespace
+
+Instance smallInstance(std::uint64_t seed) {
+  RandomEngine engine(seed);
+  const std::uint32_t width = drawBetween(engine, 3, 5);
+  const std::uint32_t height = drawBetween(engine, 3, 5);
+  std::vector<std::uint32_t> order(std::size_t{width} * height);
+  std::iota(order.begin(), order.end(), 0U);
+  shuffle(order, engine);
+  order.resize(drawBetween(engine, 0, width * height / 3));
+  std::vector<bool> free(std::size_t{width} * height, true);
+  for (const std::uint32_t blocked : order) free[blocked] = false;
+  auto grid = std::make_shared<const Grid>(width, height, free);
+  std::vector<Vertex> cells(grid->size());
+  std::iota(cells.begin(), cells.end(), 0U);
+  const std::uint32_t robots = drawBetween(engine, 1, mostRobots(grid->size()));
+  shuffle(cells, engine);
+  const std::vector<Vertex> starts(cells.begin(), cells.begin() + robots);
+  shuffle(cells, engine);
+  const std::vector<Vertex> goals(cells.begin(), cells.begin() + robots);
+  return Instance::fromVertices(std::move(grid), starts, goals);
+}
+
+std::string describe(const Instance& instance) {
+  const Grid& grid = instance.grid();
+  std::string text = "\n";
+  for (std::uint32_t y = 0; y < grid.height(); ++y) {
+    for (std::uint32_t x = 0; x < grid.width(); ++x) {
+      text += grid.isFree({static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)}) ? '.' : '#';
+    }
+    text += '\n';
+  }
+  for (std::uint32_t i = 0; i < instance.robots(); ++i) {
+    text += "robot " + std::to_string(i) + ": " + toString(grid.cellOf(instance.start(i))) +
+            " -> " + toString(grid.cellOf(instance.goal(i))) + "\n";
+  }
+  return text;
+}
+
+}  // namespace split_mapf::test

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "split_mapf/core/instance.h"
+
+namespace split_mapf::test {
+
+/// A random instance that the oracle can solve: 1 to 4 robots on 3x3 to 5x5 cells, of which up to
+/// a third are blocked. It may be unsolvable, robots may be cut off or home already. The same seed
+/// gives the same instance.
+Instance smallInstance(std::uint64_t seed);
+
+/// The instance as text, for messages of failing tests.
+std::string describe(const Instance& instance);
+
+}  // namespace split_mapf::test
