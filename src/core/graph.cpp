@@ -6,23 +6,33 @@
 namespace split_mapf {
 
 Graph::Graph(std::uint32_t size, const std::vector<std::pair<Vertex, Vertex>>& edges) {
-  std::vector<std::pair<Vertex, Vertex>> arcs;
-  arcs.reserve(edges.size() * 2);
+  offsets_.assign(size + 1, 0);
   for (const auto& [a, b] : edges) {
     if (a >= size || b >= size) throw std::out_of_range("edge end outside the graph");
     if (a == b) continue;
-    arcs.emplace_back(a, b);
-    arcs.emplace_back(b, a);
-  }
-  std::sort(arcs.begin(), arcs.end());
-  arcs.erase(std::unique(arcs.begin(), arcs.end()), arcs.end());
-  offsets_.assign(size + 1, 0);
-  targets_.reserve(arcs.size());
-  for (const auto& [from, to] : arcs) {
-    ++offsets_[from + 1];
-    targets_.push_back(to);
+    ++offsets_[a + 1];
+    ++offsets_[b + 1];
   }
   for (std::uint32_t v = 0; v < size; ++v) offsets_[v + 1] += offsets_[v];
+  targets_.resize(offsets_[size]);
+  std::vector<std::uint32_t> next(offsets_.begin(), offsets_.end() - 1);
+  for (const auto& [a, b] : edges) {
+    if (a == b) continue;
+    targets_[next[a]++] = b;
+    targets_[next[b]++] = a;
+  }
+  // Every row in order and without repetitions, moved up against the row before it.
+  std::uint32_t end = 0;
+  for (std::uint32_t v = 0; v < size; ++v) {
+    const auto first = targets_.begin() + offsets_[v];
+    const auto last = targets_.begin() + offsets_[v + 1];
+    std::sort(first, last);
+    const auto past = std::unique(first, last);
+    offsets_[v] = end;
+    for (auto target = first; target != past; ++target) targets_[end++] = *target;
+  }
+  offsets_[size] = end;
+  targets_.resize(end);
 }
 
 bool Graph::adjacent(Vertex a, Vertex b) const {
