@@ -59,6 +59,14 @@ Canvas::Box Canvas::boxAround(Point a, Point b, double reach) const {
 }
 
 void Canvas::coverSegment(Point a, Point b, double radius) {
+  // A long slope in one box would cost its whole rectangle.
+  constexpr double kLongestSlope = 32;
+  if (std::min(std::abs(b.x - a.x), std::abs(b.y - a.y)) > kLongestSlope) {
+    const Point middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
+    coverSegment(a, middle, radius);
+    coverSegment(middle, b, radius);
+    return;
+  }
   const Box box = boxAround(a, b, radius + 1);
   for (std::int64_t y = box.top; y < box.bottom; ++y) {
     for (std::int64_t x = box.left; x < box.right; ++x) {

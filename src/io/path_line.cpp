@@ -45,7 +45,7 @@ std::vector<Point> courseOf(const std::vector<Cell>& path, Point lane) {
   };
   std::vector<Point> course = {centreOf(cells.front())};
   if (cells.size() == 1) return course;
-  course.push_back(between(course.front(), shifted(cells[1]), 0.45));
+  course.push_back(between(shifted(cells[0]), shifted(cells[1]), 0.5));
   for (std::size_t i = 1; i + 1 < cells.size(); ++i) {
     if (goesStraight(cells[i - 1], cells[i], cells[i + 1])) continue;
     if (turnsBack(cells[i - 1], cells[i], cells[i + 1])) {
@@ -54,7 +54,7 @@ std::vector<Point> courseOf(const std::vector<Cell>& path, Point lane) {
       addRoundCorner(course, shifted(cells[i - 1]), shifted(cells[i]), shifted(cells[i + 1]));
     }
   }
-  course.push_back(between(centreOf(cells.back()), shifted(cells[cells.size() - 2]), 0.45));
+  course.push_back(between(shifted(cells[cells.size() - 2]), shifted(cells.back()), 0.5));
   course.push_back(centreOf(cells.back()));
   return course;
 }

@@ -27,16 +27,21 @@ std::uint64_t pixelsAt(const Grid& grid, std::uint32_t cell_px) {
          (std::uint64_t{grid.height()} * cell_px + margin);
 }
 
+// A picture as large as 1000x1000, but not longer than 2000, unless cells would get too small.
+std::uint32_t automaticCellSize(const Grid& grid) {
+  const double longer = std::max(grid.width(), grid.height());
+  const double mean = std::sqrt(static_cast<double>(grid.width()) * grid.height());
+  const auto cell_px = static_cast<std::uint32_t>(std::min(1000 / mean, 2000 / longer) + 0.5);
+  if (longer <= 1024) return std::clamp(cell_px, 4U, 64U);
+  return pixelsAt(grid, 2) <= kMaxPixels ? 2 : 1;
+}
+
 std::uint32_t cellSizeFor(const Grid& grid, const PictureOptions& options) {
   std::uint32_t cell_px = options.cell_px;
   if (cell_px > 256) {
     throw OptionError("a cell of " + std::to_string(cell_px) + " pixels, expected 1 to 256");
   }
-  if (cell_px == 0) {
-    const std::uint32_t longer = std::max(grid.width(), grid.height());
-    cell_px = std::clamp((1000 + longer / 2) / longer, 3U, 64U);
-    while (cell_px > 1 && pixelsAt(grid, cell_px) > kMaxPixels) --cell_px;
-  }
+  if (cell_px == 0) cell_px = automaticCellSize(grid);
   if (pixelsAt(grid, cell_px) > kMaxPixels) {
     throw InputError("a picture of a " + std::to_string(grid.width()) + "x" +
                      std::to_string(grid.height()) + " grid with " + std::to_string(cell_px) +
@@ -74,7 +79,7 @@ class Painter {
     line_px_ = line_cells * cell_px_;
     if (options.line_width_cells == 0) line_px_ = std::max(line_px_, 1.1);
     opacity_ =
-        choose("opacity", options.opacity, std::clamp(0.9 / std::max(1.0, crowd), 0.45, 0.9), 1);
+        choose("opacity", options.opacity, std::clamp(0.9 / std::max(1.0, crowd), 0.6, 0.9), 1);
   }
 
   void paintGrid() {

@@ -32,12 +32,15 @@ struct Picture {
 
 /// How a picture is drawn. The defaults suit every size of map.
 struct PictureOptions {
-  std::uint32_t cell_px =
-      0;  ///< pixels a cell, 1 .. 256; 0 = so that the picture has about
-          ///< 1000 pixels, with 3 to 64 a cell (fewer where it would get too large)
-  bool grid_lines = true;       ///< lines between free cells, where a cell has at least 12 pixels
-  double line_width_cells = 0;  ///< width of a path; 0 = thinner the more robots there are
-  double opacity = 0;           ///< of a path, at most 1; 0 = fainter the more robots there are
+  /// Pixels a cell, 1 .. 256. 0: so that the picture is about as large as 1000x1000 pixels, with 4
+  /// to 64 a cell; above 1024 cells a side 2, or 1 where even that gets too large.
+  std::uint32_t cell_px = 0;
+  /// Whether thin lines part the free cells, where a cell has at least 12 pixels.
+  bool grid_lines = true;
+  /// Width of a path [cells], at most 1. 0: thinner the more robots there are.
+  double line_width_cells = 0;
+  /// Opacity of a path, at most 1. 0: fainter the more robots there are.
+  double opacity = 0;
 };
 
 /// Draws a plan: every robot's path as a line in its own hue, its start as a hollow circle, its
@@ -45,7 +48,7 @@ struct PictureOptions {
 /// pictures of the same number of robots.
 /// @throws InputError naming robot and step when a path is empty or leaves the grid (a blocked
 /// cell or a jump is drawn as it is), or when the picture would exceed 2^27 pixels; OptionError for
-/// an option out of range. Cost: O(pixels + entries * cell_px^2). Thread-safe.
+/// an option out of range. Cost: O(pixels + moves * cell_px^2). Thread-safe.
 Picture drawPlan(const Grid& grid, const CellPaths& paths, const PictureOptions& options = {});
 
 /// Draws starts and goals alone, each pair joined by a faint straight line. @throws as drawPlan;
