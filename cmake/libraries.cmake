@@ -6,8 +6,8 @@ target_include_directories(split_mapf_core
   PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/include
   PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src ${YAML_CPP_INCLUDE_DIR})
 target_link_libraries(split_mapf_core
-  PUBLIC Threads::Threads Boost::boost
-  PRIVATE ${YAML_CPP_LIBRARIES} nlohmann_json::nlohmann_json PNG::PNG)
+  PUBLIC Threads::Threads
+  PRIVATE Boost::boost ${YAML_CPP_LIBRARIES} nlohmann_json::nlohmann_json PNG::PNG)
 split_mapf_compile_options(split_mapf_core)
 
 file(GLOB SPLIT_MAPF_TOOL_SOURCES CONFIGURE_DEPENDS src/tool/*.cpp)
@@ -19,6 +19,9 @@ split_mapf_compile_options(split_mapf)
 
 if(NOT SPLIT_MAPF_ROS)
   include(GNUInstallDirs)
-  install(TARGETS split_mapf_core split_mapf)
-  install(DIRECTORY include/split_mapf DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} PATTERN ros EXCLUDE)
+  install(TARGETS split_mapf_core split_mapf
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(DIRECTORY include/split_mapf DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" PATTERN ros EXCLUDE)
 endif()

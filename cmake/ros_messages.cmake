@@ -27,5 +27,4 @@ generate_messages(DEPENDENCIES actionlib_msgs geometry_msgs nav_msgs std_msgs)
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES split_mapf_core split_mapf_ros
-  CATKIN_DEPENDS ${SPLIT_MAPF_CATKIN_DEPENDS} message_runtime
-  DEPENDS Boost)
+  CATKIN_DEPENDS ${SPLIT_MAPF_CATKIN_DEPENDS} message_runtime)
