@@ -110,16 +110,16 @@ class Painter {
                        {robotColour(robot), 0.5 * opacity_});
   }
 
-  // A hollow circle in the robot's colour.
+  // A hollow circle, wide enough to stay visible round another robot's goal.
   void paintStart(std::size_t robot, Cell cell) {
-    const double radius = markerRadius();
+    const double radius = std::max(0.36 * cell_px_, 1.5);
     canvas_.fillDisc(centreOf(cell), radius, {robotColour(robot), 1});
-    canvas_.fillDisc(centreOf(cell), radius * 0.62, {kPaper, 1});
+    canvas_.fillDisc(centreOf(cell), radius * 0.68, {kPaper, 1});
   }
 
   void paintGoal(std::size_t robot, Cell cell) {
     const Colour colour = robotColour(robot);
-    const double radius = markerRadius();
+    const double radius = std::max(0.26 * cell_px_, 1.4);
     canvas_.fillDisc(centreOf(cell), radius, {darkened(colour, 0.35), 1});
     canvas_.fillDisc(centreOf(cell), radius * 0.78, {colour, 1});
   }
@@ -127,8 +127,6 @@ class Painter {
   Picture take() { return canvas_.take(); }
 
  private:
-  double markerRadius() const { return std::max(0.30 * cell_px_, 1.4); }
-
   Point onCanvas(Point in_cells) const {
     return {margin_px_ + in_cells.x * cell_px_, margin_px_ + in_cells.y * cell_px_};
   }
