@@ -1,0 +1,204 @@
+#include "split_mapf/pipeline/planner.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <new>
+#include <stdexcept>
+#include <thread>
+
+#include "split_mapf/core/error.h"
+#include "split_mapf/core/validate.h"
+#include "split_mapf/solver/ecbs.h"
+#include "support/ascii_grid.h"
+#include "support/fake_solver.h"
+
+namespace split_mapf {
+namespace {
+
+Instance crossing() {
+  return test::instanceFromAscii(
+      {"a......", "b......", "c......", "d......", "e......", "......."},
+      {"......e", "......d", "......c", "......b", "......a", "......."});
+}
+
+SolverRegistry withFake(const test::FakeSolve& solve) {
+  SolverRegistry registry;
+  registry.add(EcbsSolver::info());
+  registry.add(test::fakeSolver("fake", solve));
+  return registry;
+}
+
+PlanRequest requestFor(const std::string& solver, const std::string& split) {
+  PlanRequest request;
+  request.solver = solver;
+  request.split = split;
+  return request;
+}
+
+TEST(Planner, ReportsTheWholeWay) {
+  Executor executor(2);
+  const Instance instance = crossing();
+  const PlanReport report =
+      Planner(builtinSolvers(), executor).plan(instance, requestFor("auto", "2t"), Deadline());
+  ASSERT_EQ(report.termination, Termination::kSolved);
+  ASSERT_TRUE(report.plan);
+  EXPECT_TRUE(validate(instance, *report.plan).empty());
+  EXPECT_EQ(report.makespan, makespanOf(*report.plan));
+  EXPECT_EQ(report.sum_of_costs, sumOfCostsOf(*report.plan));
+  EXPECT_EQ(report.makespan_lower_bound, 10U);
+  EXPECT_EQ(report.solver, "auto");
+  EXPECT_EQ(report.split, "2t");
+  EXPECT_EQ(report.subproblems.size(), 2U);
+  EXPECT_EQ(report.subproblems[0].solver, "ecbs");
+  EXPECT_EQ(report.trace.size(), 1U);
+  std::vector<std::string> stages;
+  for (const auto& stage : report.stages) stages.push_back(stage.first);
+  EXPECT_EQ(stages,
+            (std::vector<std::string>{"distances", "split", "solve", "stitch", "validate"}));
+}
+
+TEST(Planner, TheSamePlanAtAnyNumberOfThreads) {
+  const Instance instance = crossing();
+  for (const char* split : {"none", "2t", "3t", "t(0.3,0.7)"}) {
+    std::vector<std::vector<Path>> plans;
+    for (const std::uint32_t threads : {1U, 2U, 8U}) {
+      Executor executor(threads);
+      PlanRequest request = requestFor("ecbs", split);
+      request.seed = 5;
+      const PlanReport report =
+          Planner(builtinSolvers(), executor).plan(instance, request, Deadline());
+      ASSERT_TRUE(report.plan) << split;
+      plans.push_back(report.plan->paths);
+    }
+    EXPECT_EQ(plans[0], plans[1]) << split;
+    EXPECT_EQ(plans[0], plans[2]) << split;
+  }
+}
+
+TEST(Planner, RefusesWhatItCannotDoBeforeAnyWork) {
+  Executor executor(1);
+  const Planner planner(builtinSolvers(), executor);
+  PlanRequest request;
+  request.solver = "magic";
+  EXPECT_THROW(planner.requireValid(request), UnknownSolverError);
+  request = requestFor("ecbs", "4x");
+  EXPECT_THROW(planner.requireValid(request), SplitSpecError);
+  request = requestFor("ecbs", "4s");
+  EXPECT_THROW(planner.requireValid(request), SplitSpecError);
+  request = requestFor("ecbs", "none");
+  request.suboptimality = 0.5;
+  EXPECT_THROW(planner.requireValid(request), OptionError);
+  request = requestFor("ecbs", "none");
+  request.refine_sec = 1;
+  EXPECT_THROW(planner.requireValid(request), OptionError);
+  request = requestFor("ecbs", "2t");
+  request.split_options = {"colour=red"};
+  EXPECT_THROW(planner.requireValid(request), OptionError);
+  request.split_options = {"variant=makespan", "variant=makespan"};
+  EXPECT_THROW(planner.requireValid(request), OptionError);
+}
+
+TEST(Planner, NamesTheRobotThatIsCutOff) {
+  Executor executor(1);
+  const Instance instance = test::instanceFromAscii({"ab.#."}, {"b..#a"});
+  const PlanReport report =
+      Planner(builtinSolvers(), executor).plan(instance, requestFor("ecbs", "2t"), Deadline());
+  EXPECT_EQ(report.termination, Termination::kUnsolvable);
+  ASSERT_TRUE(report.cut_off_robot);
+  EXPECT_EQ(*report.cut_off_robot, 0U);
+  EXPECT_NE(report.message.find("robot 0"), std::string::npos);
+}
+
+TEST(Planner, APieceWithoutAPlanIsNoVerdictOnTheWhole) {
+  std::atomic<int> calls{0};
+  const Instance instance = crossing();
+  const SolverRegistry registry = withFake([&](const Instance& piece, const Deadline& deadline) {
+    ++calls;
+    if (piece.goals() != instance.goals() || piece.starts() != instance.starts()) {
+      SolveResult failure;
+      failure.termination = Termination::kUnsolvable;
+      return failure;
+    }
+    return EcbsSolver(SolverOptions()).solve(piece, deadline);
+  });
+  Executor executor(2);
+  const PlanReport report =
+      Planner(registry, executor).plan(instance, requestFor("fake", "2t"), Deadline());
+  EXPECT_EQ(report.termination, Termination::kSolved);
+  EXPECT_GE(calls, 2);
+  ASSERT_GE(report.subproblems.size(), 2U);
+  EXPECT_EQ(report.subproblems.back().status, "solved");
+}
+
+TEST(Planner, AStopWhileSolvingCancels) {
+  std::atomic<bool> solving{false};
+  const SolverRegistry registry = withFake([&](const Instance& piece, const Deadline& deadline) {
+    solving = true;
+    return test::waitForDeadline(piece, deadline);
+  });
+  Executor executor(2);
+  const auto stop = std::make_shared<StopFlag>();
+  std::thread canceller([&] {
+    while (!solving) std::this_thread::yield();
+    stop->request();
+  });
+  const PlanReport report =
+      Planner(registry, executor).plan(crossing(), requestFor("fake", "2t"), Deadline(60, stop));
+  canceller.join();
+  EXPECT_EQ(report.termination, Termination::kCancelled);
+  EXPECT_LT(report.runtime_sec, 10);
+}
+
+TEST(Planner, TheDeadlineEndsThePieces) {
+  const SolverRegistry registry = withFake(test::waitForDeadline);
+  Executor executor(2);
+  const PlanReport report =
+      Planner(registry, executor).plan(crossing(), requestFor("fake", "3t"), Deadline(0.05));
+  EXPECT_EQ(report.termination, Termination::kTimeout);
+  EXPECT_FALSE(report.plan);
+}
+
+TEST(Planner, LackOfMemoryIsAResult) {
+  const SolverRegistry registry =
+      withFake([](const Instance&, const Deadline&) -> SolveResult { throw std::bad_alloc(); });
+  Executor executor(2);
+  const PlanReport report =
+      Planner(registry, executor).plan(crossing(), requestFor("fake", "2t"), Deadline());
+  EXPECT_EQ(report.termination, Termination::kMemoryLimit);
+}
+
+TEST(Planner, NothingInvalidIsEverReturned) {
+  const SolverRegistry registry = withFake([](const Instance& piece, const Deadline&) {
+    SolveResult result;  // straight jumps to the goals
+    result.termination = Termination::kSolved;
+    result.plan.emplace();
+    for (std::uint32_t i = 0; i < piece.robots(); ++i) {
+      result.plan->paths.push_back({piece.start(i), piece.goal(i)});
+    }
+    return result;
+  });
+  Executor executor(1);
+  const Planner planner(registry, executor);
+  EXPECT_THROW(planner.plan(crossing(), requestFor("fake", "none"), Deadline()), std::logic_error);
+  EXPECT_THROW(planner.plan(crossing(), requestFor("fake", "2t"), Deadline()), std::logic_error);
+}
+
+TEST(Planner, TellsHowFarItIs) {
+  Executor executor(2);
+  std::vector<PlanProgress> seen;
+  Planner(builtinSolvers(), executor)
+      .plan(crossing(), requestFor("ecbs", "3t"), Deadline(),
+            [&](const PlanProgress& progress) { seen.push_back(progress); });
+  ASSERT_FALSE(seen.empty());
+  EXPECT_EQ(seen.front().stage, "distances");
+  std::uint32_t most = 0;
+  for (const PlanProgress& progress : seen) {
+    most = std::max(most, progress.subproblems_done);
+    EXPECT_LE(progress.subproblems_done, progress.subproblems_total);
+  }
+  EXPECT_EQ(most, 3U);
+}
+
+}  // namespace
+}  // namespace split_mapf

@@ -1,0 +1,132 @@
+#include "split_mapf/split/time_split.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "split_mapf/core/random.h"
+
+namespace split_mapf {
+namespace {
+
+TimeSplitOptions equal(std::uint32_t pieces, TimeSplitVariant variant, std::uint64_t seed = 0) {
+  TimeSplitOptions options;
+  options.ratios.assign(pieces, 1.0 / pieces);
+  options.variant = variant;
+  options.seed = seed;
+  return options;
+}
+
+/// Random starts and goals on a random grid without cut-off robots.
+Instance randomInstance(std::uint32_t side, double density, std::uint32_t robots,
+                        std::uint64_t seed) {
+  RandomEngine engine(seed);
+  for (;;) {
+    std::vector<bool> free(side * side);
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      free[i] = static_cast<double>(drawBelow(engine, 1000)) >= density * 1000;
+    }
+    const auto grid = std::make_shared<const Grid>(side, side, free);
+    std::vector<Vertex> cells(grid->size());
+    for (Vertex v = 0; v < cells.size(); ++v) cells[v] = v;
+    shuffle(cells, engine);
+    const std::vector<Vertex> starts(cells.begin(), cells.begin() + robots);
+    shuffle(cells, engine);
+    const std::vector<Vertex> goals(cells.begin(), cells.begin() + robots);
+    Instance instance = Instance::fromVertices(grid, starts, goals);
+    if (!findCutOffRobot(instance)) return instance;
+  }
+}
+
+class TimeSplit : public testing::TestWithParam<TimeSplitVariant> {};
+
+TEST_P(TimeSplit, PiecesFollowEachOtherFromStartsToGoals) {
+  const Instance instance = randomInstance(16, 0.1, 60, 1);
+  const auto tree = splitTime(instance, equal(5, GetParam()), Deadline());
+  ASSERT_TRUE(tree);
+  std::vector<Vertex> at = instance.starts();
+  for (const Decomposition* leaf : leavesOf(*tree)) {
+    EXPECT_EQ(leaf->instance->starts(), at);
+    at = leaf->instance->goals();
+    EXPECT_EQ(std::set<Vertex>(at.begin(), at.end()).size(), at.size());
+  }
+  EXPECT_EQ(at, instance.goals());
+}
+
+TEST_P(TimeSplit, LowerBoundsOfThePiecesAddUpToTheWholes) {
+  for (const std::uint32_t robots : {20U, 100U, 200U}) {
+    for (std::uint32_t pieces = 2; pieces <= 6; ++pieces) {
+      const Instance instance = randomInstance(32, 0.05, robots, robots + pieces);
+      const auto tree = splitTime(instance, equal(pieces, GetParam()), Deadline());
+      std::uint32_t sum = 0;
+      for (const Decomposition* leaf : leavesOf(*tree)) sum += makespanLowerBound(*leaf->instance);
+      EXPECT_EQ(sum, makespanLowerBound(instance)) << robots << " robots, " << pieces << " pieces";
+    }
+  }
+}
+
+TEST_P(TimeSplit, RatiosShareOutTheTime) {
+  const Instance instance = randomInstance(32, 0.05, 50, 3);
+  TimeSplitOptions options = equal(1, GetParam());
+  options.ratios = {0.2, 0.3, 0.5};
+  const auto tree = splitTime(instance, options, Deadline());
+  const auto leaves = leavesOf(*tree);
+  ASSERT_EQ(leaves.size(), 3U);
+  const double whole = makespanLowerBound(instance);
+  EXPECT_NEAR(makespanLowerBound(*leaves[0]->instance), 0.2 * whole, 1);
+  EXPECT_NEAR(makespanLowerBound(*leaves[1]->instance), 0.3 * whole, 1);
+  EXPECT_NEAR(makespanLowerBound(*leaves[2]->instance), 0.5 * whole, 1);
+}
+
+TEST_P(TimeSplit, TheSameSeedGivesTheSameStates) {
+  const Instance instance = randomInstance(20, 0.1, 80, 4);
+  const auto states = [&](std::uint64_t seed) {
+    return splitTime(instance, equal(3, GetParam(), seed), Deadline())
+        ->children[0]
+        .instance->goals();
+  };
+  EXPECT_EQ(states(7), states(7));
+  EXPECT_NE(states(7), states(8));
+}
+
+TEST_P(TimeSplit, CrowdedGridsStillGetStatesOfTheirOwn) {
+  const Instance instance = randomInstance(8, 0, 64, 5);
+  const auto tree = splitTime(instance, equal(4, GetParam()), Deadline());
+  for (const Decomposition* leaf : leavesOf(*tree)) EXPECT_EQ(leaf->instance->robots(), 64U);
+}
+
+TEST_P(TimeSplit, MorePiecesThanStepsLeaveTheEmptyOnesOut) {
+  const Instance instance = randomInstance(4, 0, 3, 6);
+  const auto tree = splitTime(instance, equal(50, GetParam()), Deadline());
+  EXPECT_LE(leavesOf(*tree).size(), makespanLowerBound(instance) + 1);
+  EXPECT_GE(leavesOf(*tree).size(), 1U);
+}
+
+TEST_P(TimeSplit, AnExpiredDeadlineEndsIt) {
+  const Instance instance = randomInstance(16, 0.1, 60, 1);
+  EXPECT_FALSE(splitTime(instance, equal(5, GetParam()), Deadline(0)));
+}
+
+INSTANTIATE_TEST_SUITE_P(Variants, TimeSplit,
+                         testing::Values(TimeSplitVariant::kMakespan,
+                                         TimeSplitVariant::kSumOfCosts),
+                         [](const auto& info) {
+                           return info.param == TimeSplitVariant::kMakespan ? "Makespan"
+                                                                            : "SumOfCosts";
+                         });
+
+TEST(TimeSplitSumOfCosts, RobotsNearHomeGoHomeInTheFirstPiece) {
+  const Instance instance = randomInstance(32, 0, 40, 9);
+  const auto tree = splitTime(instance, equal(2, TimeSplitVariant::kSumOfCosts), Deadline());
+  const Instance& first = *tree->children[0].instance;
+  const std::uint32_t half = (makespanLowerBound(instance) + 1) / 2;
+  int home = 0;
+  for (std::uint32_t i = 0; i < instance.robots(); ++i) {
+    if (instance.shortestLength(i) > half) continue;
+    if (first.goal(i) == instance.goal(i)) ++home;
+  }
+  EXPECT_GT(home, 10);
+}
+
+}  // namespace
+}  // namespace split_mapf
