@@ -18,7 +18,6 @@ target_link_libraries(split_mapf PRIVATE split_mapf_core Boost::program_options 
 split_mapf_compile_options(split_mapf)
 
 if(NOT SPLIT_MAPF_ROS)
-  include(GNUInstallDirs)
   install(TARGETS split_mapf_core split_mapf
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}

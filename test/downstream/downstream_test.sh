@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Installs the package from a build directory to a temporary prefix, then builds and runs another
+# catkin package against nothing but that prefix.
+#
+# usage: downstream_test.sh BUILD_DIRECTORY
+set -euo pipefail
+export PATH=/usr/bin:/bin:$PATH
+
+build=$1
+here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+cmake --install "$build" --prefix "$scratch/install" > "$scratch/install.log"
+# What the package was built with must not be found by way of the build directory's environment.
+export CMAKE_PREFIX_PATH=$scratch/install${ROS_ROOT:+:${ROS_ROOT%/share/ros}}
+export LD_LIBRARY_PATH=${ROS_ROOT:+${ROS_ROOT%/share/ros}/lib}
+cmake -S "$here" -B "$scratch/build"
+cmake --build "$scratch/build"
+
+program=$scratch/build/devel/lib/split_mapf_downstream/plan_two_robots
+if ! ldd "$program" | grep -q "$scratch/install/lib/libsplit_mapf_core"; then
+  echo "the program was not linked with the installed library:" >&2
+  ldd "$program" >&2
+  exit 1
+fi
+"$program" | tee "$scratch/output"
+grep -qx 'planned 2 robots, makespan [2-9]' "$scratch/output"
+
+"$scratch/install/lib/split_mapf/split_mapf" --version
