@@ -46,10 +46,18 @@ class YamlReader {
     failAtLine(path_, mark.line < 0 ? 1 : static_cast<std::size_t>(mark.line) + 1, message);
   }
 
+  // Where the key stands: an empty value has no place of its own.
+  YAML::Mark markOf(const std::string& key) const {
+    for (const auto& pair : root_) {
+      if (pair.first.IsScalar() && pair.first.Scalar() == key) return pair.first.Mark();
+    }
+    return root_.Mark();
+  }
+
   [[noreturn]] void refuse(const std::string& key, const std::string& expected) const {
     const YAML::Node node = root_[key];
     const std::string read = node.IsScalar() ? quoted(node.Scalar()) : "no single value";
-    failAt(node.Mark(), key + ": read " + read + ", expected " + expected);
+    failAt(markOf(key), key + ": read " + read + ", expected " + expected);
   }
 
   // yaml-cpp takes the first of two equal keys in silence.

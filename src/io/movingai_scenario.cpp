@@ -89,7 +89,8 @@ class ScenarioReader {
     const std::int64_t y = integerIn(y_field, what + "y");
     const std::string named = what + "(" + std::to_string(x) + "," + std::to_string(y) + ")";
     if (x < 0 || y < 0 || x >= grid_.width() || y >= grid_.height()) {
-      lines_.fail(named + " is outside the map, expected a free cell of its " + sizeOf(grid_));
+      lines_.fail(named + " is outside the map, expected a free cell of the " + sizeOf(grid_) +
+                  " map");
     }
     const Cell cell{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)};
     if (!grid_.isFree(cell)) lines_.fail(named + " is blocked, expected a free cell");

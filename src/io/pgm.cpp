@@ -101,7 +101,9 @@ class PgmReader {
 
   std::vector<float> readBinarySamples() {
     if (position_ == bytes_.size() || !isBlank(bytes_[position_])) {
-      fail("read " + (position_ == bytes_.size() ? "the end of the file" : quoted(wordHere())) +
+      fail("read " +
+           (position_ == bytes_.size() ? "the end of the file"
+                                       : quoted(bytes_.substr(position_, 1))) +
            ", expected one white space and the samples");
     }
     ++position_;

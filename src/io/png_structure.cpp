@@ -55,15 +55,15 @@ class ImageDataCheck {
       status = inflate(&stream_, Z_NO_FLUSH);
       count(block_.size() - stream_.avail_out);
     }
+    if (bytes_ > expected || (status == Z_STREAM_END && stream_.avail_in > 0)) {
+      return "read too much image data, expected " + std::to_string(expected) +
+             " bytes when decompressed";
+    }
     if (bad_filter_ >= 0) {
       return "read filter " + std::to_string(bad_filter_) + " in the image data, expected 0 to 4";
     }
     if (status != Z_OK && status != Z_STREAM_END && status != Z_BUF_ERROR) {
       return "read image data that cannot be decompressed, expected zlib data";
-    }
-    if (bytes_ > expected || (status == Z_STREAM_END && stream_.avail_in > 0)) {
-      return "read too much image data, expected " + std::to_string(expected) +
-             " bytes when decompressed";
     }
     if (status == Z_STREAM_END && bytes_ == expected) return "";
     return "read image data that ends after " + std::to_string(bytes_) +

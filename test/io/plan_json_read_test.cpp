@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+
+#include "io/temporary_files.h"
+#include "split_mapf/io/plan_json.h"
+
+namespace split_mapf {
+namespace {
+
+class PlanJsonReadTest : public test::FileTest {
+ protected:
+  CellPaths pathsOf(const std::string& json) const { return readPlanJson(file("a.json", json)); }
+  std::string errorOfJson(const std::string& json) const {
+    return errorOf([&] { pathsOf(json); });
+  }
+};
+
+TEST_F(PlanJsonReadTest, ReadsPaths) {
+  EXPECT_EQ(pathsOf(R"({"status": "solved", "paths": [[[0,1],[2,3]], [[4,5]]]})"),
+            (CellPaths{{{0, 1}, {2, 3}}, {{4, 5}}}));
+}
+
+TEST_F(PlanJsonReadTest, LeavesTheJudgementToTheValidator) {
+  EXPECT_EQ(pathsOf(R"({"paths": []})"), CellPaths{});
+  EXPECT_EQ(pathsOf(R"({"paths": [[], [[-1, 2147483647]]]})"), (CellPaths{{}, {{-1, 2147483647}}}));
+}
+
+TEST_F(PlanJsonReadTest, LooksAtTheTopLevelAlone) {
+  EXPECT_EQ(pathsOf(R"({"layout": {"paths": 3}, "trace": [{"paths": 4}], "paths": [[[1,1]]]})"),
+            (CellPaths{{{1, 1}}}));
+  EXPECT_EQ(errorOfJson(R"({"layout": {"paths": []}})"),
+            "a.json: read no 'paths', expected a list of paths, one a robot");
+}
+
+TEST_F(PlanJsonReadTest, NamesTheLineOfMalformedJson) {
+  const auto start = [&](const std::string& json) { return errorOfJson(json).substr(0, 46); };
+  EXPECT_EQ(start(""), "a.json:1: read malformed JSON, expected a plan");
+  EXPECT_EQ(start("{\n\"paths\": [[[1,2],\n"), "a.json:3: read malformed JSON, expected a plan");
+  EXPECT_EQ(start("{\n\"paths\": [\n[[1,2] [3,4]]\n]}"),
+            "a.json:3: read malformed JSON, expected a plan");
+  EXPECT_EQ(start("{\"paths\": []}\n\nmore"), "a.json:3: read malformed JSON, expected a plan");
+  EXPECT_EQ(start("{\"paths\": [],\n \"message\": \"\xff\"}"),
+            "a.json:2: read malformed JSON, expected a plan");
+  EXPECT_NE(errorOfJson("{\n\"paths\": ]").find("]"), std::string::npos);
+}
+
+TEST_F(PlanJsonReadTest, NamesMissingOrRepeatedPaths) {
+  EXPECT_EQ(errorOfJson("{}"), "a.json: read no 'paths', expected a list of paths, one a robot");
+  EXPECT_EQ(errorOfJson("[1]"), "a.json: read '[1]', expected a JSON object");
+  EXPECT_EQ(errorOfJson(R"({"paths": [], "paths": [[[1,2]]]})"),
+            "a.json: read 'paths' a second time, expected it once");
+  EXPECT_EQ(errorOfJson(R"({"paths": null})"),
+            "a.json: paths: read 'null', expected a list of paths");
+}
+
+TEST_F(PlanJsonReadTest, NamesRobotAndStep) {
+  EXPECT_EQ(errorOfJson(R"({"paths": [[[1,2]], 7]})"),
+            "a.json: paths, robot 1: read '7', expected a list of cells");
+  EXPECT_EQ(errorOfJson(R"({"paths": [[[1,2]], [[1,2],[3]]]})"),
+            "a.json: paths, robot 1, step 1: read '[3]', expected [x,y]");
+  EXPECT_EQ(errorOfJson(R"({"paths": [[[1,2,3]]]})"),
+            "a.json: paths, robot 0, step 0: read '[1,2,3]', expected [x,y]");
+  EXPECT_EQ(errorOfJson(R"({"paths": [[5]]})"),
+            "a.json: paths, robot 0, step 0: read '5', expected [x,y]");
+  EXPECT_EQ(errorOfJson(R"({"paths": [[{"x":1,"y":2}]]})"),
+            "a.json: paths, robot 0, step 0: read '{\"x\":1,\"y\":2}', expected [x,y]");
+  EXPECT_EQ(errorOfJson(R"({"paths": [[[1,2],[1,2.0]]]})"),
+            "a.json: paths, robot 0, step 1: read y = '2.0', expected a 32-bit integer");
+  EXPECT_EQ(errorOfJson(R"({"paths": [[["1",2]]]})"),
+            "a.json: paths, robot 0, step 0: read x = '\"1\"', expected a 32-bit integer");
+  EXPECT_EQ(errorOfJson(R"({"paths": [[[2147483648,2]]]})"),
+            "a.json: paths, robot 0, step 0: read x = '2147483648', expected a 32-bit integer");
+  EXPECT_EQ(errorOfJson(R"({"paths": [[[0,-2147483649]]]})"),
+            "a.json: paths, robot 0, step 0: read y = '-2147483649', expected a 32-bit integer");
+  EXPECT_EQ(errorOfJson(R"({"paths": [[[0,true]]]})"),
+            "a.json: paths, robot 0, step 0: read y = 'true', expected a 32-bit integer");
+}
+
+TEST_F(PlanJsonReadTest, NamesAFileThatCannotBeRead) {
+  EXPECT_EQ(errorOf([&] { readPlanJson(pathOf("none.json")); }),
+            "cannot open none.json: No such file or directory");
+}
+
+}  // namespace
+}  // namespace split_mapf
