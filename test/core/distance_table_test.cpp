@@ -1,0 +1,129 @@
+#include "split_mapf/core/distance_table.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <memory>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "split_mapf/core/grid.h"
+#include "support/ascii_grid.h"
+#include "support/small_instances.h"
+
+namespace split_mapf {
+namespace {
+
+using test::gridFromAscii;
+using test::serpentineGrid;
+
+/// Distances by repeated relaxation: slow, and nothing like a breadth-first search.
+std::vector<std::uint32_t> relax(const Graph& graph, Vertex goal) {
+  std::vector<std::uint32_t> d(graph.size(), DistanceTable::kUnreachable);
+  d[goal] = 0;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (Vertex v = 0; v < graph.size(); ++v) {
+      for (const Vertex u : graph.neighbours(v)) {
+        if (d[u] != DistanceTable::kUnreachable && d[u] + 1 < d[v]) {
+          d[v] = d[u] + 1;
+          changed = true;
+        }
+      }
+    }
+  }
+  return d;
+}
+
+TEST(DistanceTable, WalksRoundObstacles) {
+  const auto grid = gridFromAscii({".#.",  //
+                                   ".#.",  //
+                                   "..."});
+  const DistanceTable table(grid->graph(), grid->vertexAt({2, 0}));
+  EXPECT_EQ(table(grid->vertexAt({2, 0})), 0U);
+  EXPECT_EQ(table(grid->vertexAt({0, 0})), 6U);
+  EXPECT_FALSE(table.isWide());
+}
+
+TEST(DistanceTable, MarksWhatCannotReachTheGoal) {
+  const auto grid = gridFromAscii({".#."});
+  const DistanceTable table(grid->graph(), 0);
+  EXPECT_EQ(table(1), DistanceTable::kUnreachable);
+}
+
+TEST(DistanceTable, AgreesWithRelaxationOnRandomGrids) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const Instance instance = test::smallInstance(seed);
+    const std::vector<std::uint32_t> expected = relax(instance.graph(), instance.goal(0));
+    const DistanceTable& table = instance.distances(0);
+    for (Vertex v = 0; v < instance.graph().size(); ++v) EXPECT_EQ(table(v), expected[v]);
+  }
+}
+
+/// A path graph: the distance from one end is the vertex itself.
+Graph chain(std::uint32_t size) {
+  std::vector<std::pair<Vertex, Vertex>> edges;
+  for (Vertex v = 0; v + 1 < size; ++v) edges.emplace_back(v, v + 1);
+  return {size, edges};
+}
+
+TEST(DistanceTable, StaysExactBeyondSixteenBits) {
+  const auto grid = serpentineGrid(400);
+  const Vertex last = grid->size() - 1;
+  const DistanceTable table(grid->graph(), 0);
+  ASSERT_GT(grid->size(), 65536U);
+  ASSERT_TRUE(table.isWide());
+  // The corridor is a single chain: the greatest distance is the number of cells minus one, and
+  // every distance occurs once.
+  std::vector<bool> seen(grid->size(), false);
+  for (Vertex v = 0; v <= last; ++v) {
+    ASSERT_LT(table(v), grid->size());
+    EXPECT_FALSE(seen[table(v)]);
+    seen[table(v)] = true;
+  }
+}
+
+TEST(DistanceTable, ChangesWidthExactlyWhereSixteenBitsEnd) {
+  const Graph fits = chain(65535);  // greatest distance 65534; 65535 marks the unreachable
+  EXPECT_FALSE(DistanceTable(fits, 0).isWide());
+  EXPECT_EQ(DistanceTable(fits, 0)(65534), 65534U);
+  const Graph exceeds = chain(65536);
+  EXPECT_TRUE(DistanceTable(exceeds, 0).isWide());
+  EXPECT_EQ(DistanceTable(exceeds, 0)(65535), 65535U);
+  EXPECT_FALSE(DistanceTable(exceeds, 32768).isWide());
+}
+
+TEST(DistanceTables, ManyThreadsShareOneTableAGoal) {
+  const auto grid = serpentineGrid(40);
+  std::vector<Vertex> goals(64);
+  for (std::uint32_t i = 0; i < goals.size(); ++i) goals[i] = i * 7;
+  const DistanceTables tables(grid->graph(), goals);
+  std::vector<std::vector<const DistanceTable*>> seen(8);
+  std::atomic<std::uint32_t> ready{0};
+  std::vector<std::thread> threads;
+  for (std::uint32_t t = 0; t < 8; ++t) {
+    threads.emplace_back([&, t] {
+      for (++ready; ready < 8;) std::this_thread::yield();
+      for (std::uint32_t i = 0; i < goals.size(); ++i) seen[t].push_back(&tables[i]);
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (std::uint32_t i = 0; i < goals.size(); ++i) {
+    EXPECT_EQ(seen[0][i]->goal(), goals[i]);
+    for (std::uint32_t t = 1; t < 8; ++t) EXPECT_EQ(seen[t][i], seen[0][i]);
+  }
+}
+
+TEST(DistanceTables, TakeOverATableThatStandsAlready) {
+  const auto grid = gridFromAscii({"...."});
+  const auto table = std::make_shared<const DistanceTable>(grid->graph(), 3);
+  DistanceTables tables(grid->graph(), {0, 3});
+  tables.adopt(1, table);
+  EXPECT_EQ(&tables[1], table.get());
+  EXPECT_EQ(tables.share(1), table);
+  EXPECT_EQ(tables[0](3), 3U);
+}
+
+}  // namespace
+}  // namespace split_mapf
