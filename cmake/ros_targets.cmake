@@ -1,6 +1,7 @@
 # The ROS side: conversions and servers as a library, two nodes, installation.
 file(GLOB SPLIT_MAPF_ROS_SOURCES CONFIGURE_DEPENDS src/ros/*.cpp)
 add_library(split_mapf_ros ${SPLIT_MAPF_ROS_SOURCES})
+#catkin_lint: ignore_once external_interface_path
 target_include_directories(split_mapf_ros SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})
 target_link_libraries(split_mapf_ros PUBLIC split_mapf_core ${catkin_LIBRARIES})
 add_dependencies(split_mapf_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
