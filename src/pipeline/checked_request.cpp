@@ -16,8 +16,6 @@ SplitSpec checkSplit(const PlanRequest& request,
     throw SplitSpecError("split '" + request.split +
                          "': space splits are not available yet; time splits (Kt) and none are");
   }
-  // Reading them finds what is wrong with them, whether or not this split uses them.
-  timeSplitOptions(options, split.time_ratios, request.objective, request.seed);
   if (!options.empty() && split.kind == SplitSpec::Kind::kNone) {
     throw OptionError("split options need a split, but split '" + request.split + "' makes none");
   }
@@ -50,8 +48,9 @@ CheckedRequest check(const PlanRequest& request, const SolverRegistry& solvers) 
   checked.solver_options.seed = request.seed;
   checked.solver_options.values = parseNamedValues(request.solver_options, "solver option");
   solvers.create(checked.solver, checked.solver_options);
-  checked.split_options = parseNamedValues(request.split_options, "split option");
-  checked.split = checkSplit(request, checked.split_options);
+  const auto values = parseNamedValues(request.split_options, "split option");
+  checked.split_options = readSplitOptions(values, request.objective);
+  checked.split = checkSplit(request, values);
   return checked;
 }
 

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "split_mapf/core/compaction.h"
 #include "split_mapf/core/validate.h"
-#include "split_mapf/split/split_options.h"
 #include "split_mapf/split/time_split.h"
 
 namespace split_mapf {
@@ -134,10 +134,11 @@ bool PlanRun::reportCutOff() {
 std::optional<Decomposition> PlanRun::split() {
   if (request_.split.time_ratios.size() > 1) {
     enterStage("split");
-    return splitTime(instance_,
-                     timeSplitOptions(request_.split_options, request_.split.time_ratios,
-                                      report_.objective, report_.seed),
-                     deadline_);
+    TimeSplitOptions options;
+    options.ratios = request_.split.time_ratios;
+    options.variant = request_.split_options.variant;
+    options.seed = report_.seed;
+    return splitTime(instance_, options, deadline_);
   }
   std::vector<std::uint32_t> everyone(instance_.robots());
   std::iota(everyone.begin(), everyone.end(), 0U);
@@ -220,6 +221,10 @@ bool PlanRun::takeResults(const Decomposition& tree, std::vector<SolveResult>& r
   }
   enterStage("stitch");
   Plan plan = stitch(tree, plans, instance_.robots());
+  if (!whole && request_.split_options.compaction) {
+    enterStage("compact");
+    plan = compact(plan, instance_.graph().size());
+  }
   if (whole && results.front().optimal) report_.certified_by = results.front().certified_by;
   accept(std::move(plan));
   return true;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -9,6 +8,7 @@
 
 #include "split_mapf/pipeline/planner.h"
 #include "split_mapf/split/decomposition.h"
+#include "split_mapf/split/split_options.h"
 #include "split_mapf/split/split_spec.h"
 
 namespace split_mapf {
@@ -19,7 +19,7 @@ struct CheckedRequest {
   std::string solver;  ///< what `auto` stands for, or as asked
   SolverOptions solver_options;
   SplitSpec split;  ///< never kAuto
-  std::map<std::string, std::string> split_options;
+  SplitOptions split_options;
 };
 
 /// Reads a request. @throws UnknownSolverError, SplitSpecError, OptionError.

@@ -9,6 +9,7 @@ namespace split_mapf {
 
 const std::vector<SplitOptionInfo>& splitOptions() {
   static const std::vector<SplitOptionInfo> options = {
+      {"compaction", "true", "remove waiting that the seams brought in: true or false"},
       {"variant", "the objective's own",
        "where robots are at the seams of a time split: makespan (each at its share of its way) or "
        "sum_of_costs (as far as time allows)"},
@@ -16,9 +17,8 @@ const std::vector<SplitOptionInfo>& splitOptions() {
   return options;
 }
 
-TimeSplitOptions timeSplitOptions(const std::map<std::string, std::string>& values,
-                                  const std::vector<double>& ratios, Objective objective,
-                                  std::uint64_t seed) {
+SplitOptions readSplitOptions(const std::map<std::string, std::string>& values,
+                              Objective objective) {
   for (const auto& entry : values) {
     const auto& known = splitOptions();
     if (std::any_of(known.begin(), known.end(),
@@ -29,13 +29,13 @@ TimeSplitOptions timeSplitOptions(const std::map<std::string, std::string>& valu
     for (const SplitOptionInfo& o : known) offered += (offered.empty() ? "" : ", ") + o.name;
     throw OptionError("split option '" + entry.first + "' is unknown; there are: " + offered);
   }
-  const std::string variant =
-      OptionValues(values).choice("variant", toString(objective), {"makespan", "sum_of_costs"});
-  TimeSplitOptions options;
-  options.ratios = ratios;
+  const OptionValues reader(values);
+  SplitOptions options;
   options.variant =
-      variant == "makespan" ? TimeSplitVariant::kMakespan : TimeSplitVariant::kSumOfCosts;
-  options.seed = seed;
+      reader.choice("variant", toString(objective), {"makespan", "sum_of_costs"}) == "makespan"
+          ? TimeSplitVariant::kMakespan
+          : TimeSplitVariant::kSumOfCosts;
+  options.compaction = reader.flag("compaction", options.compaction);
   return options;
 }
 

@@ -54,8 +54,8 @@ TEST(Planner, ReportsTheWholeWay) {
   EXPECT_EQ(report.trace.size(), 1U);
   std::vector<std::string> stages;
   for (const auto& stage : report.stages) stages.push_back(stage.first);
-  EXPECT_EQ(stages,
-            (std::vector<std::string>{"distances", "split", "solve", "stitch", "validate"}));
+  EXPECT_EQ(stages, (std::vector<std::string>{"distances", "split", "solve", "stitch", "compact",
+                                              "validate"}));
 }
 
 TEST(Planner, TheSamePlanAtAnyNumberOfThreads) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -20,9 +19,14 @@ struct SplitOptionInfo {
 /// Every split option there is, in order of names.
 const std::vector<SplitOptionInfo>& splitOptions();
 
-/// Reads the options of a time split. @throws OptionError for an unknown name or value.
-TimeSplitOptions timeSplitOptions(const std::map<std::string, std::string>& values,
-                                  const std::vector<double>& ratios, Objective objective,
-                                  std::uint64_t seed);
+/// What a user may set about splitting. The one place where these defaults live.
+struct SplitOptions {
+  TimeSplitVariant variant = TimeSplitVariant::kMakespan;
+  bool compaction = true;
+};
+
+/// Reads split options. @throws OptionError for an unknown name or value.
+SplitOptions readSplitOptions(const std::map<std::string, std::string>& values,
+                              Objective objective);
 
 }  // namespace split_mapf
