@@ -1,0 +1,114 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "split_mapf/core/deadline.h"
+#include "split_mapf/core/graph.h"
+#include "split_mapf/core/grid.h"
+#include "split_mapf/core/instance.h"
+
+namespace split_mapf {
+
+/// Whether a plan exists.
+enum class Solvability {
+  kSolvable,    ///< proved: a plan exists
+  kUnsolvable,  ///< proved: none does
+  kUndecided,   ///< the deadline expired first: nothing is known
+};
+
+/// Why no plan exists. A "part" is a connected component of the graph, a "loop" a maximal set of
+/// vertices that stays connected whichever single edge is removed (a 2-edge-connected component of
+/// at least three vertices), a "ring" a loop that is a single cycle.
+enum class RefusalKind {
+  kNone,                 ///< not refused
+  kDifferentComponents,  ///< start and goal lie in different parts
+  kCycleOrder,           ///< robots would have to overtake each other on a ring
+  kPathOrder,            ///< robots would have to overtake on a path without junction or loop
+  kNoBlankBridge,        ///< a robot must cross a bridge, and its part has no empty vertex
+  kParity,               ///< an odd permutation on a full loop whose cycles are all odd
+  kClassMismatch,        ///< two robots must pass each other, with too few empty vertices for that
+};
+
+/// The answer and, for a refusal, evidence that can be checked on its own.
+struct SolvabilityVerdict {
+  Solvability answer = Solvability::kSolvable;
+  RefusalKind refusal = RefusalKind::kNone;
+  /// kDifferentComponents: every robot that is cut off from its goal. kCycleOrder: three robots,
+  /// met in this order from the starts and in the opposite one at the goals. kPathOrder and
+  /// kClassMismatch: the two robots that would have to pass each other. kNoBlankBridge: a robot
+  /// that must cross the bridge, and one that must cross it the other way. kParity: the robots of
+  /// the loop that are not home.
+  std::vector<std::uint32_t> robots;
+  /// kDifferentComponents: start and goal of each of `robots`. kCycleOrder: the ring, in order.
+  /// kPathOrder: the path, end to end. kNoBlankBridge: the two ends of the bridge, in the first
+  /// robot's direction. kParity: the loop. kClassMismatch: the passage, from the loop or junction
+  /// where robots could change places to the place beyond which they would have to.
+  std::vector<Vertex> vertices;
+  /// Vertices of the part that the refusal is about (of the first robot's start).
+  std::uint32_t cells = 0;
+  /// How many of these are empty.
+  std::uint32_t blanks = 0;
+  /// With this many empty vertices in the part the obstacle would be none; fewer do not do.
+  /// Nothing where no number helps. Other obstacles may remain: each verdict names one.
+  std::optional<std::uint32_t> blanks_needed;
+};
+
+class BridgeStructure;
+
+/// Decides exactly, in polynomial time, whether robots can get from their starts to their goals
+/// under our rules: one robot a vertex, no swaps, following and rotations of full cycles legal. The
+/// structure of the graph is found once and serves any number of checks.
+///
+/// Source: the rule and its evidence are our own, in the spirit of Kornhauser, Miller and Spirakis
+/// (FOCS 1984) for pebbles that slide into empty vertices, of Goraly and Hassin (Algorithmica 2010)
+/// for linear time, and of Yu and Rus (2015) for rotations. Per part of the graph:
+///  - A ring keeps the cyclic order of its robots, whatever is empty.
+///  - Full, otherwise: a robot stays in its loop, or at its vertex outside of all loops. A loop
+///    that is no ring admits every permutation, only the even ones if all its cycles are odd.
+///  - With b >= 1 empty vertices, otherwise: robots exchange places in loops and, for b >= 2, at
+///    junctions (vertices of degree >= 3 outside of all loops). Two neighbouring places that l
+///    edges join are one for this purpose when b >= l (two loops), l + 1 (a loop and a junction),
+///    l + 2 (two junctions); a vertex at distance d belongs to a loop for d <= b, to a junction for
+///    d <= b - 1. With all empty vertices gathered around one such place, in starts and goals
+///    alike, each robot must be found in the same class, or at the same vertex outside of all.
+/// Deviations: gathering takes O(V) instead of b shifts of O(V) each, and classes are found in one
+/// walk from the gathered blanks outwards. Nothing here is a proof: the tests compare with
+/// exhaustive search.
+///
+/// Thread-safe after construction.
+class SolvabilityChecker {
+ public:
+  /// Cost: O(V + E). @pre `graph` outlives this object.
+  explicit SolvabilityChecker(const Graph& graph);
+
+  /// Robot i goes from starts[i] to goals[i]. The first refused part decides the verdict. Polls the
+  /// deadline once a part.
+  /// @throws std::invalid_argument when the lists differ in length, a vertex is outside the graph
+  /// or appears twice in one list.
+  /// Cost: O(V) bits and O(robots) where every part has so many empty vertices that all its robots
+  /// are in one class, as on ordinary maps; otherwise O(V + E).
+  SolvabilityVerdict check(const std::vector<Vertex>& starts, const std::vector<Vertex>& goals,
+                           const Deadline& deadline = {}) const;
+
+ private:
+  const Graph* graph_;
+  std::shared_ptr<const BridgeStructure> structure_;
+};
+
+/// The same for one check. Cost: O(V + E), without recursion.
+SolvabilityVerdict checkSolvable(const Graph& graph, const std::vector<Vertex>& starts,
+                                 const std::vector<Vertex>& goals, const Deadline& deadline = {});
+/// The same for an instance.
+SolvabilityVerdict checkSolvable(const Instance& instance, const Deadline& deadline = {});
+
+/// The verdict as a sentence that a person can act on, naming robots and cells, the number of empty
+/// cells and how many would be needed. "solvable" for a solvable instance.
+std::string explain(const SolvabilityVerdict& verdict, const Grid& grid);
+/// The same for a graph without coordinates, whose vertices go by number.
+std::string explain(const SolvabilityVerdict& verdict);
+
+}  // namespace split_mapf
