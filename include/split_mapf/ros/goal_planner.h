@@ -1,0 +1,64 @@
+#pragma once
+
+#include <memory>
+
+#include <split_mapf/PlanPathsAction.h>
+
+#include "split_mapf/core/deadline.h"
+#include "split_mapf/core/instance.h"
+#include "split_mapf/pipeline/planner.h"
+#include "split_mapf/ros/map_source.h"
+#include "split_mapf/ros/options_loader.h"
+#include "split_mapf/ros/outcome.h"
+#include "split_mapf/ros/planning_grid.h"
+#include "split_mapf/ros/pose_transformer.h"
+#include "split_mapf/ros/robot_tasks.h"
+
+namespace split_mapf {
+
+/// A goal that has been read and found right.
+struct PreparedGoal {
+  GoalOptions options;
+  PlanningGrid grid;
+  PlacedRobots robots;
+  Instance instance;
+};
+
+/// One goal's answer.
+struct GoalAnswer {
+  Outcome outcome = Outcome::kInternalError;
+  PlanPathsResult result;
+};
+
+/// From a goal message to a result message, without the action protocol. Thread-safe.
+class GoalPlanner {
+ public:
+  /// @pre planner, maps and transformer outlive this object.
+  GoalPlanner(const Planner& planner, const ServerOptions& options, const MapSource& maps,
+              const PoseTransformer& transformer)
+      : planner_(planner), options_(options), maps_(maps), transformer_(transformer) {}
+
+  /// The goal's options with the server's where it leaves them open, checked.
+  /// @throws GoalError: INVALID_OPTION, UNKNOWN_SOLVER, INVALID_SPLIT.
+  GoalOptions readOptions(const PlanOptions& asked) const;
+  /// Places the robots on the goal's map. @throws GoalError with every robot at fault.
+  /// `deadline` bounds the wait for transforms.
+  PreparedGoal prepare(const boost::shared_ptr<const PlanPathsGoal>& goal,
+                       const GoalOptions& options, const Deadline& deadline) const;
+  /// Plans. A cancelled goal that has a plan carries it, with outcome CANCELLED.
+  GoalAnswer plan(const PreparedGoal& goal, const Deadline& deadline,
+                  const ProgressCallback& progress) const;
+
+ private:
+  const Planner& planner_;
+  const ServerOptions& options_;
+  const MapSource& maps_;
+  const PoseTransformer& transformer_;
+};
+
+/// The answer to a goal that cannot be planned for.
+GoalAnswer refusal(const GoalError& error);
+/// An answer without plan and faults.
+GoalAnswer refusal(Outcome outcome, const std::string& message);
+
+}  // namespace split_mapf

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <XmlRpcValue.h>
+#include <split_mapf/PlanOptions.h>
+
+#include "split_mapf/io/occupancy.h"
+#include "split_mapf/pipeline/planner.h"
+
+namespace split_mapf {
+
+/// What one goal asks for, beside map and robots. Defaults live here and in PlanRequest.
+struct GoalOptions {
+  PlanRequest plan;
+  OccupancyRule occupancy;
+  double robot_radius_m = 0;
+  double cell_size_m = 0;        ///< 0: the smallest that the robots allow
+  double step_duration_sec = 1;  ///< one time step
+  bool fill_poses = false;
+};
+
+/// The planner node's private parameters.
+struct ServerOptions {
+  GoalOptions goal;  ///< used where a goal leaves an option open
+  std::uint32_t max_queued_goals = 8;
+  bool publish_paths = false;
+  std::string map_file;  ///< published on `map` when set
+};
+
+/// Reads the node's parameters, a struct of name and value; what is missing keeps its default.
+/// @throws OptionError naming the parameter, what it holds and what is expected.
+ServerOptions readServerOptions(XmlRpc::XmlRpcValue parameters);
+/// Parameters that no one reads: misspelt ones, most likely. Those of the libraries below the node
+/// (actionlib, diagnostic_updater) are known.
+std::vector<std::string> findUnknownParameters(XmlRpc::XmlRpcValue parameters);
+
+/// Fills what a goal leaves open (0 or empty) from the server's options; a negative number stands
+/// for zero. The server's solver options go with the server's solver only.
+/// @throws OptionError for a value out of range.
+GoalOptions mergeOptions(const PlanOptions& asked, const GoalOptions& defaults);
+
+/// Refuses robots with a radius and planning cells that are not map cells: neither is available
+/// yet. `resolution_m` is the map's. @throws OptionError.
+void requireMapCells(const GoalOptions& options, double resolution_m);
+
+}  // namespace split_mapf

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <string>
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <split_mapf/MultiRobotPlan.h>
+
+#include "split_mapf/ros/planning_grid.h"
+
+namespace split_mapf {
+
+/// Publishes the last plan found, the grid it was planned on and, if wanted, a path a robot, all
+/// latched. Thread-safe.
+class PlanPublisher {
+ public:
+  /// `~plan` and `~planning_grid` in `private_node`, `<name>/path` in `node`.
+  PlanPublisher(ros::NodeHandle node, ros::NodeHandle private_node, bool publish_paths);
+
+  /// @pre with publish_paths the robots' ROS names are distinct.
+  void publish(const MultiRobotPlan& plan, const PlanningGrid& grid);
+
+ private:
+  void publishPaths(const MultiRobotPlan& plan);
+
+  ros::NodeHandle node_;
+  bool publish_paths_;
+  std::mutex mutex_;
+  ros::Publisher plan_;
+  ros::Publisher grid_;
+  std::map<std::string, ros::Publisher> paths_;  ///< by the robot's ROS name
+};
+
+}  // namespace split_mapf

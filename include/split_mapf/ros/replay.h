@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <mutex>
+#include <optional>
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/service_server.h>
+#include <ros/subscriber.h>
+#include <ros/wall_timer.h>
+#include <split_mapf/MultiRobotPlan.h>
+#include <split_mapf/ReplayControl.h>
+
+#include "split_mapf/ros/markers.h"
+#include "split_mapf/ros/replay_timeline.h"
+
+namespace split_mapf {
+
+/// Parameters of the replay node.
+struct ReplayOptions {
+  MarkerStyle style;
+  double rate_hz = 20;  ///< markers a second of wall time, at most
+  double speed = 1;     ///< times the plan's own pace
+  bool loop = false;    ///< start again at the end
+};
+
+/// Reads ~robot_size, ~trail_steps, ~show_goals, ~show_labels, ~rate, ~speed and ~loop.
+/// @throws OptionError naming the parameter.
+ReplayOptions readReplayOptions(XmlRpc::XmlRpcValue parameters);
+
+/// Shows plans as moving markers: subscribes `plan` and `planning_grid`, publishes ~markers, serves
+/// ~control. A new plan starts at once, at its step 0. Paced by ROS time. Thread-safe.
+class Replay {
+ public:
+  Replay(ros::NodeHandle node, ros::NodeHandle private_node, const ReplayOptions& options);
+
+ private:
+  void takePlan(const MultiRobotPlan& plan);
+  void takeGrid(const nav_msgs::OccupancyGrid& grid);
+  bool control(ReplayControl::Request& request, ReplayControl::Response& response);
+  /// Carries a command out and says what was done. @throws InputError.
+  std::string obey(const ReplayControl::Request& request);
+  void tick();
+  void publishLocked();
+  /// Warns when the plan was made on another grid than the one that is shown.
+  void compareGridsLocked();
+
+  ReplayOptions options_;
+  std::mutex mutex_;
+  ReplayTimeline timeline_;
+  std::optional<PlanMarkers> markers_;
+  std::optional<nav_msgs::MapMetaData> plan_grid_;
+  std::optional<nav_msgs::MapMetaData> shown_grid_;
+  ros::WallTime compare_at_;  ///< when plan and grid should both have arrived; zero: done
+  ros::Time last_tick_;
+  std::optional<double> shown_position_;
+  std::size_t shown_labels_ = 0;
+
+  ros::Publisher publisher_;
+  ros::Subscriber plan_subscriber_;
+  ros::Subscriber grid_subscriber_;
+  ros::ServiceServer control_;
+  ros::WallTimer timer_;
+};
+
+}  // namespace split_mapf

@@ -1,0 +1,89 @@
+// The planner node: wiring only.
+
+#include <algorithm>
+#include <exception>
+#include <string>
+#include <thread>
+
+#include <ros/ros.h>
+
+#include "split_mapf/core/error.h"
+#include "split_mapf/pipeline/executor.h"
+#include "split_mapf/pipeline/planner.h"
+#include "split_mapf/ros/end_signal.h"
+#include "split_mapf/ros/goal_planner.h"
+#include "split_mapf/ros/map_source.h"
+#include "split_mapf/ros/options_loader.h"
+#include "split_mapf/ros/plan_publisher.h"
+#include "split_mapf/ros/plan_server.h"
+#include "split_mapf/ros/plan_services.h"
+#include "split_mapf/ros/pose_transformer.h"
+#include "split_mapf/ros/server_diagnostics.h"
+#include "split_mapf/solver/registry.h"
+
+namespace {
+
+// Callbacks are short but for ~validate_plan; a few threads keep cancelling prompt meanwhile.
+constexpr std::uint32_t kCallbackThreads = 4;
+// Time for the last results to leave the node.
+constexpr double kFlushSec = 0.1;
+
+XmlRpc::XmlRpcValue readParameters(const ros::NodeHandle& private_node) {
+  XmlRpc::XmlRpcValue parameters;
+  ros::param::get(private_node.getNamespace(), parameters);
+  return parameters;
+}
+
+std::uint32_t workersFor(const split_mapf::ServerOptions& options) {
+  if (options.goal.plan.threads != 0) return options.goal.plan.threads;
+  return std::max(1U, std::thread::hardware_concurrency());
+}
+
+void run() {
+  ros::NodeHandle node;
+  ros::NodeHandle private_node("~");
+  split_mapf::installEndSignal();
+  const XmlRpc::XmlRpcValue parameters = readParameters(private_node);
+  const split_mapf::ServerOptions options = split_mapf::readServerOptions(parameters);
+  for (const std::string& name : split_mapf::findUnknownParameters(parameters)) {
+    ROS_WARN("parameter ~%s is not one of this node", name.c_str());
+  }
+
+  const std::uint32_t workers = workersFor(options);
+  split_mapf::Executor executor(workers);
+  const split_mapf::SolverRegistry& solvers = split_mapf::builtinSolvers();
+  const split_mapf::Planner planner(solvers, executor);
+  planner.requireValid(options.goal.plan);
+
+  const split_mapf::MapSource maps(node, options.map_file);
+  const split_mapf::PoseTransformer transformer;
+  const split_mapf::GoalPlanner goal_planner(planner, options, maps, transformer);
+  split_mapf::PlanPublisher publisher(node, private_node, options.publish_paths);
+  const split_mapf::PlanServices services(private_node, solvers, options, maps);
+  const split_mapf::QueueLimits limits{options.max_queued_goals, workers};
+  split_mapf::PlanServer server(private_node, goal_planner, publisher, limits);
+  const split_mapf::ServerDiagnostics diagnostics(node, private_node, server, limits, workers);
+
+  ros::AsyncSpinner spinner(kCallbackThreads);
+  spinner.start();
+  ROS_INFO("ready: %u workers, action %s", workers, private_node.resolveName("plan_paths").c_str());
+  split_mapf::waitForEndSignal();
+  server.shutdown();
+  ros::WallDuration(kFlushSec).sleep();
+  spinner.stop();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "split_mapf", ros::init_options::NoSigintHandler);
+  try {
+    run();
+  } catch (const std::exception& error) {
+    ROS_FATAL("%s", error.what());
+    ros::shutdown();
+    return 1;
+  }
+  ros::shutdown();
+  return 0;
+}

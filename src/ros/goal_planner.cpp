@@ -1,0 +1,107 @@
+#include "split_mapf/ros/goal_planner.h"
+
+#include <cstdio>
+#include <utility>
+
+#include "split_mapf/core/error.h"
+#include "split_mapf/ros/plan_messages.h"
+
+namespace split_mapf {
+namespace {
+
+/// Runs a part of the preparation; an option found wrong there becomes a GoalError.
+template <typename Part>
+auto withGoalErrors(const Part& part) {
+  try {
+    return part();
+  } catch (const UnknownSolverError& error) {
+    throw GoalError(Outcome::kUnknownSolver, error.what());
+  } catch (const SplitSpecError& error) {
+    throw GoalError(Outcome::kInvalidSplit, error.what());
+  } catch (const OptionError& error) {
+    throw GoalError(Outcome::kInvalidOption, error.what());
+  }
+}
+
+std::string describeSuccess(const PlanReport& report) {
+  char text[256];
+  std::snprintf(text, sizeof text,
+                "valid plan for %u robots in %.2f s: makespan %u (lower bound %u), sum of costs "
+                "%llu (lower bound %llu)",
+                report.robots, report.runtime_sec, report.makespan, report.makespan_lower_bound,
+                static_cast<unsigned long long>(report.sum_of_costs),
+                static_cast<unsigned long long>(report.sum_of_costs_lower_bound));
+  return text;
+}
+
+std::string sentenceOf(const PlanReport& report) {
+  if (report.plan) return describeSuccess(report);
+  return report.message.empty() ? toString(report.termination) : report.message;
+}
+
+}  // namespace
+
+GoalOptions GoalPlanner::readOptions(const PlanOptions& asked) const {
+  return withGoalErrors([&] {
+    GoalOptions options = mergeOptions(asked, options_.goal);
+    planner_.requireValid(options.plan);
+    return options;
+  });
+}
+
+PreparedGoal GoalPlanner::prepare(const boost::shared_ptr<const PlanPathsGoal>& goal,
+                                  const GoalOptions& options, const Deadline& deadline) const {
+  return withGoalErrors([&] {
+    if (goal->robots.empty()) {
+      throw GoalError(Outcome::kNoRobots, "the goal has no robots; at least one is needed");
+    }
+    const std::shared_ptr<const nav_msgs::OccupancyGrid> sent(&goal->map, [goal](const void*) {});
+    const std::shared_ptr<const nav_msgs::OccupancyGrid> map = maps_.choose(sent);
+    PlanningGrid grid = makePlanningGrid(*map, options.occupancy);
+    requireMapCells(options, grid.geometry.info().resolution);
+    PlacedRobots robots = placeRobots(goal->robots, grid, transformer_.forGoal(deadline));
+    if (options_.publish_paths) distinctRosNames(robots.ids);
+    Instance instance(grid.grid, robots.starts, robots.goals);
+    requireReachableGoals(instance, robots.ids, grid.geometry);
+    return PreparedGoal{options, std::move(grid), std::move(robots), std::move(instance)};
+  });
+}
+
+GoalAnswer GoalPlanner::plan(const PreparedGoal& goal, const Deadline& deadline,
+                             const ProgressCallback& progress) const {
+  const PlanReport report = planner_.plan(goal.instance, goal.options.plan, deadline, progress);
+  if (report.cut_off_robot) {
+    requireReachableGoals(goal.instance, goal.robots.ids, goal.grid.geometry);
+  }
+  GoalAnswer answer;
+  answer.outcome = outcomeOf(report.termination);
+  answer.result.message = sentenceOf(report);
+  answer.result.statistics = statisticsOf(report);
+  if (report.plan) {
+    answer.result.plan = toMessage(report, goal.robots.ids, goal.grid,
+                                   goal.options.step_duration_sec, ros::Time::now());
+    if (goal.options.fill_poses) fillPoses(answer.result.plan);
+    if (deadline.stopRequested()) {
+      answer.outcome = Outcome::kCancelled;
+      answer.result.message = "cancelled; " + answer.result.message;
+    }
+  }
+  answer.result.outcome = codeOf(answer.outcome);
+  return answer;
+}
+
+GoalAnswer refusal(const GoalError& error) {
+  GoalAnswer answer = refusal(error.outcome(), error.what());
+  answer.result.faults = error.faults();
+  return answer;
+}
+
+GoalAnswer refusal(Outcome outcome, const std::string& message) {
+  GoalAnswer answer;
+  answer.outcome = outcome;
+  answer.result.outcome = codeOf(outcome);
+  answer.result.message = message;
+  return answer;
+}
+
+}  // namespace split_mapf

@@ -1,0 +1,184 @@
+#include "split_mapf/ros/options_loader.h"
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "split_mapf/core/error.h"
+#include "split_mapf/ros/parameter_reader.h"
+
+namespace split_mapf {
+namespace {
+
+constexpr std::int64_t kMaxUint32 = std::numeric_limits<std::int32_t>::max();
+
+std::string toText(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+void requirePositive(double value, const std::string& name) {
+  if (!std::isfinite(value) || value <= 0) {
+    throw OptionError(name + " " + toText(value) + " is out of range: a number > 0 is expected");
+  }
+}
+
+void requireNotNegative(double value, const std::string& name) {
+  if (!std::isfinite(value) || value < 0) {
+    throw OptionError(name + " " + toText(value) +
+                      " is out of range: a finite number >= 0 is expected");
+  }
+}
+
+/// 0 = the server's value, a negative number = explicitly zero.
+template <typename T>
+T choose(T asked, T default_value) {
+  if (asked == 0) return default_value;
+  return asked < 0 ? T{0} : asked;
+}
+
+void checkThreshold(int threshold) {
+  if (threshold < 1 || threshold > 100) {
+    throw OptionError("occupied_threshold " + std::to_string(threshold) +
+                      " is out of range: 1 to 100 [%] is expected");
+  }
+}
+
+void checkNumbers(const GoalOptions& options) {
+  requireNotNegative(options.plan.time_limit_sec, "time_limit");
+  requireNotNegative(options.plan.refine_sec, "refine_time");
+  requireNotNegative(options.robot_radius_m, "robot_radius");
+  requireNotNegative(options.cell_size_m, "cell_size");
+  requirePositive(options.step_duration_sec, "step_duration");
+  checkThreshold(options.occupancy.occupied_threshold);
+}
+
+bool isFreeWhenUnknown(std::uint8_t unknown_space, bool default_value) {
+  switch (unknown_space) {
+    case PlanOptions::UNKNOWN_SPACE_DEFAULT:
+      return default_value;
+    case PlanOptions::UNKNOWN_SPACE_BLOCKED:
+      return false;
+    case PlanOptions::UNKNOWN_SPACE_FREE:
+      return true;
+    default:
+      throw OptionError("unknown_space " + std::to_string(unknown_space) +
+                        " is out of range: 0 (the server's), 1 (blocked) or 2 (free) is expected");
+  }
+}
+
+void readPlanRequest(ParameterReader& reader, PlanRequest& plan) {
+  reader.read("solver", plan.solver);
+  reader.read("solver_options", plan.solver_options);
+  reader.read("split", plan.split);
+  reader.read("split_options", plan.split_options);
+  std::string objective = toString(plan.objective);
+  reader.read("objective", objective);
+  plan.objective = parseObjective(objective);
+  reader.read("suboptimality", plan.suboptimality);
+  reader.read("time_limit", plan.time_limit_sec);
+  reader.read("refine_time", plan.refine_sec);
+  plan.seed = static_cast<std::uint64_t>(
+      reader.readInteger("seed", static_cast<std::int64_t>(plan.seed), {0, kMaxUint32}));
+  plan.threads = static_cast<std::uint32_t>(reader.readInteger("threads", plan.threads, {0, 1024}));
+}
+
+void readGoalOptions(ParameterReader& reader, GoalOptions& options) {
+  readPlanRequest(reader, options.plan);
+  reader.read("robot_radius", options.robot_radius_m);
+  reader.read("cell_size", options.cell_size_m);
+  const std::int64_t unknown_default = options.occupancy.unknown_is_free
+                                           ? PlanOptions::UNKNOWN_SPACE_FREE
+                                           : PlanOptions::UNKNOWN_SPACE_BLOCKED;
+  options.occupancy.unknown_is_free =
+      reader.readInteger("unknown_space", unknown_default,
+                         {PlanOptions::UNKNOWN_SPACE_BLOCKED, PlanOptions::UNKNOWN_SPACE_FREE}) ==
+      PlanOptions::UNKNOWN_SPACE_FREE;
+  options.occupancy.occupied_threshold = static_cast<int>(
+      reader.readInteger("occupied_threshold", options.occupancy.occupied_threshold, {1, 100}));
+  reader.read("step_duration", options.step_duration_sec);
+  reader.read("fill_poses", options.fill_poses);
+}
+
+ServerOptions readAll(ParameterReader& reader) {
+  ServerOptions options;
+  readGoalOptions(reader, options.goal);
+  options.max_queued_goals = static_cast<std::uint32_t>(
+      reader.readInteger("max_queued_goals", options.max_queued_goals, {1, 1000}));
+  reader.read("publish_paths", options.publish_paths);
+  reader.read("map_file", options.map_file);
+  return options;
+}
+
+}  // namespace
+
+ServerOptions readServerOptions(XmlRpc::XmlRpcValue parameters) {
+  ParameterReader reader(std::move(parameters));
+  ServerOptions options = readAll(reader);
+  checkNumbers(options.goal);
+  return options;
+}
+
+std::vector<std::string> findUnknownParameters(XmlRpc::XmlRpcValue parameters) {
+  ParameterReader reader(std::move(parameters));
+  readAll(reader);
+  const std::set<std::string> of_libraries = {"actionlib_server_pub_queue_size",
+                                              "actionlib_server_sub_queue_size",
+                                              "actionlib_status_frequency",
+                                              "diagnostic_period",
+                                              "diagnostic_updater_use_fqn",
+                                              "plan_paths",
+                                              "status_list_timeout"};
+  std::vector<std::string> unknown;
+  for (const std::string& name : reader.unreadNames()) {
+    if (of_libraries.count(name) == 0) unknown.push_back(name);
+  }
+  return unknown;
+}
+
+GoalOptions mergeOptions(const PlanOptions& asked, const GoalOptions& defaults) {
+  GoalOptions options = defaults;
+  PlanRequest& plan = options.plan;
+  if (!asked.solver.empty() && asked.solver != plan.solver) {
+    plan.solver = asked.solver;
+    plan.solver_options.clear();
+  }
+  if (!asked.solver_options.empty()) plan.solver_options = asked.solver_options;
+  if (!asked.split.empty()) plan.split = asked.split;
+  if (!asked.split_options.empty()) plan.split_options = asked.split_options;
+  if (!asked.objective.empty()) plan.objective = parseObjective(asked.objective);
+  plan.suboptimality = choose(asked.suboptimality, plan.suboptimality);
+  plan.time_limit_sec = choose(asked.time_limit, plan.time_limit_sec);
+  plan.refine_sec = choose(asked.refine_time, plan.refine_sec);
+  if (asked.seed != 0) plan.seed = asked.seed;
+  if (asked.threads != 0) plan.threads = asked.threads;
+  options.robot_radius_m = choose(asked.robot_radius, options.robot_radius_m);
+  options.cell_size_m = choose(asked.cell_size, options.cell_size_m);
+  options.occupancy.unknown_is_free =
+      isFreeWhenUnknown(asked.unknown_space, options.occupancy.unknown_is_free);
+  options.occupancy.occupied_threshold =
+      choose<int>(asked.occupied_threshold, options.occupancy.occupied_threshold);
+  options.step_duration_sec = choose(asked.step_duration, options.step_duration_sec);
+  options.fill_poses = options.fill_poses || asked.fill_poses;
+  checkNumbers(options);
+  return options;
+}
+
+void requireMapCells(const GoalOptions& options, double resolution_m) {
+  if (options.robot_radius_m != 0) {
+    throw OptionError("robot_radius " + toText(options.robot_radius_m) +
+                      " m is not available yet: only point robots (0) can be planned for");
+  }
+  // A resolution comes as a 32-bit number, a cell size as a 64-bit one.
+  const bool is_map_cell = options.cell_size_m == 0 ||
+                           std::abs(options.cell_size_m - resolution_m) <= 1e-6 * resolution_m;
+  if (!is_map_cell) {
+    throw OptionError("cell_size " + toText(options.cell_size_m) +
+                      " m is not available yet: a planning cell is a map cell of " +
+                      toText(resolution_m) + " m (0 asks for it)");
+  }
+}
+
+}  // namespace split_mapf

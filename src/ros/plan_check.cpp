@@ -1,0 +1,153 @@
+#include "split_mapf/ros/plan_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <set>
+
+#include "split_mapf/core/error.h"
+#include "split_mapf/core/instance.h"
+#include "split_mapf/core/validate.h"
+#include "split_mapf/ros/outcome.h"
+
+namespace split_mapf {
+namespace {
+
+using CellPaths = std::vector<std::vector<Cell>>;
+
+/// Writes violations the way ROS users see robots and cells.
+class ViolationWriter {
+ public:
+  ViolationWriter(const MultiRobotPlan& plan, const PlanningGrid& grid, const CellPaths& paths)
+      : plan_(plan), grid_(grid), paths_(paths) {}
+
+  std::string describe(const Violation& violation) const {
+    const std::string who = nameOf(violation.robot);
+    const std::string at_step = "step " + std::to_string(violation.step);
+    const std::string here = at(violation.robot, violation.step);
+    switch (violation.kind) {
+      case ViolationKind::kEmptyPath:
+        return who + " has an empty path";
+      case ViolationKind::kOutsideGrid:
+        return who + " is in " + here + " at " + at_step + ", which is no free cell of the map";
+      case ViolationKind::kJump:
+        return who + " jumps from " + at(violation.robot, violation.step - 1) + " to " + here +
+               " at " + at_step + "; a move goes to one of four neighbours";
+      case ViolationKind::kVertexConflict:
+        return who + " and " + nameOf(violation.other) + " are both in " + here + " at " + at_step;
+      case ViolationKind::kSwapConflict:
+        return who + " and " + nameOf(violation.other) + " swap cells at " + at_step + ": " +
+               at(violation.robot, violation.step - 1) + " and " + here;
+      default:
+        return violation.message;
+    }
+  }
+
+ private:
+  std::string nameOf(std::uint32_t robot) const {
+    return "robot '" + plan_.paths[robot].robot_id + "'";
+  }
+  std::string at(std::uint32_t robot, std::uint32_t step) const {
+    const std::vector<Cell>& path = paths_[robot];
+    const Cell cell = path[std::min<std::size_t>(step, path.size() - 1)];
+    return "cell " + grid_.geometry.describe(cell);
+  }
+
+  const MultiRobotPlan& plan_;
+  const PlanningGrid& grid_;
+  const CellPaths& paths_;
+};
+
+void checkGrid(const MultiRobotPlan& plan, const PlanningGrid& grid,
+               std::vector<std::string>& found) {
+  const nav_msgs::MapMetaData& of_map = grid.geometry.info();
+  if (plan.grid.width != of_map.width || plan.grid.height != of_map.height ||
+      plan.grid.resolution != of_map.resolution) {
+    found.push_back("the plan's grid of " + std::to_string(plan.grid.width) + "x" +
+                    std::to_string(plan.grid.height) + " cells of " +
+                    std::to_string(plan.grid.resolution) + " m is not the map's of " +
+                    std::to_string(of_map.width) + "x" + std::to_string(of_map.height) +
+                    " cells of " + std::to_string(of_map.resolution) + " m");
+    return;
+  }
+  try {
+    const MapGeometry geometry(plan.grid, plan.header.frame_id);
+    const geometry_msgs::Point ours = grid.geometry.centreOf({0, 0});
+    const geometry_msgs::Point theirs = geometry.centreOf({0, 0});
+    if (geometry.frame() != grid.geometry.frame()) {
+      found.push_back("the plan's frame '" + geometry.frame() + "' is not the map's frame '" +
+                      grid.geometry.frame() + "'");
+    } else if (std::hypot(ours.x - theirs.x, ours.y - theirs.y) > 0.01 * of_map.resolution ||
+               std::abs(std::remainder(geometry.yaw() - grid.geometry.yaw(), 2 * M_PI)) > 1e-4) {
+      found.push_back("the plan's grid has another origin than the map");
+    }
+  } catch (const GoalError& error) {
+    found.push_back(std::string("the plan's grid is none; ") + error.what());
+  }
+}
+
+void checkRobotIds(const MultiRobotPlan& plan, std::vector<std::string>& found) {
+  std::set<std::string> ids;
+  for (const RobotPath& path : plan.paths) {
+    if (!ids.insert(path.robot_id).second) {
+      found.push_back("robot '" + path.robot_id + "' has more than one path");
+    }
+  }
+}
+
+void checkCosts(const MultiRobotPlan& plan, std::vector<std::string>& found) {
+  Plan cells;
+  for (const RobotPath& path : plan.paths) {
+    if (path.cells.empty()) return;
+    cells.paths.emplace_back(path.cells.begin(), path.cells.end());
+  }
+  if (makespanOf(cells) != plan.makespan) {
+    found.push_back("the plan claims makespan " + std::to_string(plan.makespan) +
+                    ", its paths have " + std::to_string(makespanOf(cells)));
+  }
+  if (sumOfCostsOf(cells) != plan.sum_of_costs) {
+    found.push_back("the plan claims sum of costs " + std::to_string(plan.sum_of_costs) +
+                    ", its paths have " + std::to_string(sumOfCostsOf(cells)));
+  }
+}
+
+/// Violations of the paths as such. Starts and goals are not known here, so an instance of one
+/// robot stands in: validate() checks surplus paths for all but start and goal.
+void checkPaths(const MultiRobotPlan& plan, const PlanningGrid& grid,
+                std::vector<std::string>& found) {
+  CellPaths paths;
+  for (const RobotPath& path : plan.paths) {
+    paths.emplace_back();
+    for (const std::uint32_t index : path.cells) {
+      paths.back().push_back(grid.geometry.cellOf(index));
+    }
+  }
+  if (grid.grid->size() == 0) {
+    if (!paths.empty()) found.emplace_back("the map has no free cell");
+    return;
+  }
+  const Instance stand_in = Instance::fromVertices(grid.grid, {0}, {0});
+  const ViolationWriter writer(plan, grid, paths);
+  for (const Violation& violation : validate(stand_in, paths)) {
+    if (violation.kind == ViolationKind::kRobotCount ||
+        violation.kind == ViolationKind::kWrongStart ||
+        violation.kind == ViolationKind::kWrongGoal) {
+      continue;
+    }
+    found.push_back(writer.describe(violation));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> findViolations(const MultiRobotPlan& plan, const PlanningGrid& grid) {
+  std::vector<std::string> found;
+  if (plan.paths.empty()) found.emplace_back("the plan has no paths");
+  checkGrid(plan, grid, found);
+  checkRobotIds(plan, found);
+  checkCosts(plan, found);
+  checkPaths(plan, grid, found);
+  return found;
+}
+
+}  // namespace split_mapf

@@ -1,0 +1,127 @@
+#include "split_mapf/ros/plan_messages.h"
+
+#include <cmath>
+#include <map>
+
+#include "split_mapf/core/error.h"
+#include "split_mapf/ros/orientation.h"
+
+namespace split_mapf {
+namespace {
+
+bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+
+/// Heading of the first move at or behind each step; behind the last move, that of the last move.
+std::vector<double> headingsOf(const std::vector<geometry_msgs::Point>& points, double at_rest) {
+  std::vector<double> headings(points.size(), at_rest);
+  bool known = false;
+  for (std::size_t k = points.size(); k-- > 0;) {
+    if (k + 1 < points.size()) headings[k] = headings[k + 1];
+    if (k + 1 == points.size()) continue;
+    const double dx = points[k + 1].x - points[k].x;
+    const double dy = points[k + 1].y - points[k].y;
+    if (dx == 0 && dy == 0) continue;
+    headings[k] = std::atan2(dy, dx);
+    if (known) continue;
+    for (std::size_t later = k + 1; later < points.size(); ++later) headings[later] = headings[k];
+    known = true;
+  }
+  return headings;
+}
+
+}  // namespace
+
+MultiRobotPlan toMessage(const PlanReport& report, const std::vector<std::string>& ids,
+                         const PlanningGrid& grid, double step_duration_sec,
+                         const ros::Time& stamp) {
+  MultiRobotPlan message;
+  message.header.frame_id = grid.geometry.frame();
+  message.header.stamp = stamp;
+  message.grid = grid.geometry.info();
+  message.step_duration = step_duration_sec;
+  message.objective = toString(report.objective);
+  message.makespan = report.makespan;
+  message.sum_of_costs = report.sum_of_costs;
+  message.paths.resize(ids.size());
+  for (std::size_t robot = 0; robot < ids.size(); ++robot) {
+    const Path& path = report.plan->paths[robot];
+    RobotPath& out = message.paths[robot];
+    out.robot_id = ids[robot];
+    out.cells.reserve(path.size());
+    const std::size_t arrival = costOf(path);
+    for (std::size_t k = 0; k <= arrival; ++k) {
+      out.cells.push_back(grid.geometry.indexOf(grid.grid->cellOf(path[k])));
+    }
+  }
+  return message;
+}
+
+PlanStatistics statisticsOf(const PlanReport& report) {
+  PlanStatistics statistics;
+  statistics.makespan_lower_bound = report.makespan_lower_bound;
+  statistics.sum_of_costs_lower_bound = report.sum_of_costs_lower_bound;
+  statistics.proved_lower_bound = report.proved_lower_bound;
+  statistics.optimal = report.optimal;
+  statistics.certified_by = report.certified_by;
+  statistics.solver = report.solver;
+  statistics.split = report.split;
+  statistics.runtime = report.runtime_sec;
+  statistics.first_plan = report.first_plan_sec;
+  statistics.subproblems = static_cast<std::uint32_t>(report.subproblems.size());
+  for (const auto& [name, seconds] : report.stages) {
+    statistics.stage_names.push_back(name);
+    statistics.stage_seconds.push_back(seconds);
+  }
+  return statistics;
+}
+
+nav_msgs::Path posesOf(const MultiRobotPlan& plan, std::size_t robot) {
+  const MapGeometry geometry(plan.grid, plan.header.frame_id);
+  std::vector<geometry_msgs::Point> points;
+  for (const std::uint32_t cell : plan.paths[robot].cells) {
+    points.push_back(geometry.centreOf(geometry.cellOf(cell)));
+  }
+  const std::vector<double> headings = headingsOf(points, geometry.yaw());
+  nav_msgs::Path path;
+  path.header = plan.header;
+  path.poses.resize(points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    geometry_msgs::PoseStamped& pose = path.poses[k];
+    pose.header.frame_id = plan.header.frame_id;
+    pose.header.stamp =
+        plan.header.stamp + ros::Duration(static_cast<double>(k) * plan.step_duration);
+    pose.pose.position = points[k];
+    pose.pose.orientation = quaternionOf(headings[k]);
+  }
+  return path;
+}
+
+void fillPoses(MultiRobotPlan& plan) {
+  for (std::size_t robot = 0; robot < plan.paths.size(); ++robot) {
+    plan.paths[robot].path = posesOf(plan, robot);
+  }
+}
+
+std::string rosNameOf(const std::string& robot_id) {
+  std::string name;
+  for (const char c : robot_id) name += isLetter(c) || isDigit(c) ? c : '_';
+  return !name.empty() && isLetter(name.front()) ? name : "r" + name;
+}
+
+std::vector<std::string> distinctRosNames(const std::vector<std::string>& robot_ids) {
+  std::vector<std::string> names;
+  std::map<std::string, std::string> owners;
+  for (const std::string& id : robot_ids) {
+    names.push_back(rosNameOf(id));
+    const auto [owner, is_new] = owners.emplace(names.back(), id);
+    if (!is_new) {
+      throw OptionError("publish_paths: robots '" + owner->second + "' and '" + id +
+                        "' would both publish on " + names.back() +
+                        "/path; ids have to differ in letters, digits or '_'");
+    }
+  }
+  return names;
+}
+
+}  // namespace split_mapf

@@ -1,0 +1,200 @@
+#include "split_mapf/ros/plan_server.h"
+
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <utility>
+
+#include <ros/console.h>
+
+namespace split_mapf {
+namespace {
+
+constexpr double kFeedbackPeriodSec = 0.2;
+
+/// A slot that is held until the end of a scope.
+class HeldSlot {
+ public:
+  HeldSlot(RunSlots& slots, std::uint64_t ticket, const Deadline& deadline)
+      : slots_(slots), held_(slots.acquire(ticket, deadline)) {}
+  ~HeldSlot() {
+    if (held_) slots_.release();
+  }
+  HeldSlot(const HeldSlot&) = delete;
+  HeldSlot& operator=(const HeldSlot&) = delete;
+  bool held() const { return held_; }
+
+ private:
+  RunSlots& slots_;
+  const bool held_;
+};
+
+}  // namespace
+
+PlanServer::PlanServer(const ros::NodeHandle& private_node, const GoalPlanner& planner,
+                       PlanPublisher& publisher, QueueLimits limits)
+    : planner_(planner),
+      publisher_(publisher),
+      limits_(limits),
+      slots_(limits.running),
+      server_(
+          private_node, "plan_paths", [this](PlanActionServer::GoalHandle goal) { onGoal(goal); },
+          [this](PlanActionServer::GoalHandle goal) { onCancel(goal); }, false) {
+  ros::NodeHandle node(private_node);
+  feedback_timer_ =
+      node.createWallTimer(ros::WallDuration(kFeedbackPeriodSec),
+                           [this](const ros::WallTimerEvent& /*event*/) { publishFeedback(); });
+  server_.start();
+}
+
+PlanServer::~PlanServer() { shutdown(); }
+
+void PlanServer::shutdown() {
+  feedback_timer_.stop();
+  std::list<std::unique_ptr<ActiveGoal>> goals;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stop_all_->request();
+    goals.swap(goals_);
+  }
+  // The destructors join, without the lock that the threads need.
+  goals.clear();
+}
+
+PlanServerStatus PlanServer::status() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  PlanServerStatus status = last_;
+  for (const auto& goal : goals_) {
+    if (goal->left_queue) continue;
+    ++(goal->isAccepted() ? status.running : status.queued);
+  }
+  return status;
+}
+
+void PlanServer::onGoal(PlanActionServer::GoalHandle handle) {
+  reap();
+  std::string why_not;
+  try {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    std::uint32_t admitted = 0;
+    for (const auto& goal : goals_) admitted += goal->left_queue ? 0 : 1;
+    if (stop_all_->requested()) {
+      why_not = "the node is shutting down";
+    } else if (admitted >= limits_.admitted) {
+      why_not = std::to_string(admitted) +
+                " goals are active already, as many as max_queued_goals" +
+                " allows; try again when one has ended";
+    } else {
+      goals_.push_back(std::make_unique<ActiveGoal>(handle, next_ticket_++, stop_all_));
+      ActiveGoal& goal = *goals_.back();
+      try {
+        goal.start([this, &goal] { serve(goal); });
+      } catch (...) {
+        goals_.pop_back();
+        throw;
+      }
+    }
+  } catch (const std::exception& error) {
+    why_not = std::string("the goal cannot be taken: ") + error.what();
+  }
+  if (why_not.empty()) return;
+  ROS_WARN("goal rejected: %s", why_not.c_str());
+  handle.setRejected(refusal(Outcome::kServerBusy, why_not).result, why_not);
+}
+
+void PlanServer::onCancel(const PlanActionServer::GoalHandle& handle) {
+  const std::string id = handle.getGoalID().id;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (const auto& goal : goals_) {
+    if (goal->id() == id) goal->cancel();
+  }
+}
+
+void PlanServer::serve(ActiveGoal& goal) {
+  const GoalAnswer answer = answerWhatever(goal);
+  try {
+    finish(goal, answer);
+  } catch (const std::exception& error) {
+    // Memory for the message, most likely; the goal's state stands already.
+    ROS_ERROR("goal %s: its result could not be sent: %s", goal.id().c_str(), error.what());
+  }
+}
+
+GoalAnswer PlanServer::answerWhatever(ActiveGoal& goal) {
+  try {
+    return answer(goal);
+  } catch (const GoalError& error) {
+    return refusal(error);
+  } catch (const std::bad_alloc&) {
+    return refusal(Outcome::kMemoryLimit, "memory ran out");
+  } catch (const std::exception& error) {
+    return refusal(Outcome::kInternalError, std::string("internal error: ") + error.what());
+  } catch (...) {
+    return refusal(Outcome::kInternalError, "internal error of unknown kind");
+  }
+}
+
+GoalAnswer PlanServer::answer(ActiveGoal& goal) {
+  // A goal with bad options has no time limit yet, and needs none.
+  const GoalOptions options = planner_.readOptions(goal.message()->options);
+  const Deadline deadline = goal.deadlineWithin(options.plan.time_limit_sec);
+  try {
+    const PreparedGoal prepared = planner_.prepare(goal.message(), options, deadline);
+    return planInTurn(goal, prepared, deadline);
+  } catch (const GoalError&) {
+    // What a stopped wait for a transform found is not the reason.
+    if (deadline.stopRequested()) return stopped(goal, deadline);
+    throw;
+  }
+}
+
+GoalAnswer PlanServer::planInTurn(ActiveGoal& goal, const PreparedGoal& prepared,
+                                  const Deadline& deadline) {
+  const HeldSlot slot(slots_, goal.ticket(), deadline);
+  if (!slot.held()) return stopped(goal, deadline);
+  goal.accept();
+  GoalAnswer answer = planner_.plan(
+      prepared, deadline, [&goal](const PlanProgress& progress) { goal.update(progress); });
+  if (!answer.result.plan.paths.empty()) publisher_.publish(answer.result.plan, prepared.grid);
+  return answer;
+}
+
+GoalAnswer PlanServer::stopped(const ActiveGoal& goal, const Deadline& deadline) const {
+  if (stop_all_->requested()) return refusal(Outcome::kCancelled, "the node is shutting down");
+  if (deadline.stopRequested()) {
+    return refusal(Outcome::kCancelled, "cancelled before planning began");
+  }
+  char text[128];
+  std::snprintf(text, sizeof text,
+                "the time limit passed after %.2f s, before planning began: other goals came first",
+                goal.elapsedSec());
+  return refusal(Outcome::kTimeout, text);
+}
+
+void PlanServer::finish(ActiveGoal& goal, const GoalAnswer& answer) {
+  const std::string outcome = toString(answer.outcome);
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++last_.finished;
+    last_.last_outcome = outcome;
+    last_.last_message = answer.result.message;
+    last_.last_runtime_sec = goal.elapsedSec();
+  }
+  // Before the client hears of it, so that it can send the next goal at once.
+  goal.left_queue = true;
+  ROS_INFO("goal %s: %s: %s", goal.id().c_str(), outcome.c_str(), answer.result.message.c_str());
+  goal.finish(answer);
+}
+
+void PlanServer::publishFeedback() {
+  reap();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (const auto& goal : goals_) goal->publishFeedback();
+}
+
+void PlanServer::reap() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  goals_.remove_if([](const auto& goal) { return goal->isDone(); });
+}
+
+}  // namespace split_mapf

@@ -1,0 +1,141 @@
+#include "split_mapf/ros/planning_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+#include "split_mapf/core/error.h"
+#include "split_mapf/ros/orientation.h"
+#include "split_mapf/ros/outcome.h"
+
+namespace split_mapf {
+namespace {
+
+// How far the origin's axis may lean before it counts as turned about x or y.
+constexpr double kLeanTolerance = 1e-3;
+
+// Cell coordinates are signed 32-bit numbers; Grid has a lower limit of its own.
+constexpr std::uint32_t kMaxSide = 1U << 30;
+
+[[noreturn]] void refuse(const std::string& why) {
+  throw GoalError(Outcome::kInvalidMap, "map: " + why);
+}
+
+bool isAllZero(const geometry_msgs::Quaternion& q) {
+  return q.x == 0 && q.y == 0 && q.z == 0 && q.w == 0;
+}
+
+nav_msgs::MapMetaData checked(nav_msgs::MapMetaData info) {
+  if (info.width == 0 || info.height == 0) {
+    refuse("it has " + std::to_string(info.width) + "x" + std::to_string(info.height) +
+           " cells; at least one is needed");
+  }
+  if (info.width > kMaxSide || info.height > kMaxSide) {
+    refuse("it has " + std::to_string(info.width) + "x" + std::to_string(info.height) +
+           " cells; a side may have at most " + std::to_string(kMaxSide));
+  }
+  if (!std::isfinite(info.resolution) || info.resolution <= 0) {
+    refuse("its resolution is " + std::to_string(info.resolution) +
+           "; a positive number of metres is needed");
+  }
+  const geometry_msgs::Point& at = info.origin.position;
+  if (!std::isfinite(at.x) || !std::isfinite(at.y) || !std::isfinite(at.z)) {
+    refuse("the position of its origin is not finite");
+  }
+  geometry_msgs::Quaternion& turn = info.origin.orientation;
+  if (isAllZero(turn)) turn.w = 1;
+  if (!isUnitQuaternion(turn)) refuse("the orientation of its origin is no unit quaternion");
+  if (std::hypot(turn.x, turn.y) > kLeanTolerance) {
+    refuse("its origin is turned about x or y; only yaw is possible");
+  }
+  return info;
+}
+
+std::string plainFrame(const std::string& frame_id) {
+  const std::string frame = stripSlash(frame_id);
+  return frame.empty() ? "map" : frame;
+}
+
+}  // namespace
+
+MapGeometry::MapGeometry(const nav_msgs::MapMetaData& info, const std::string& frame_id)
+    : info_(checked(info)),
+      frame_(plainFrame(frame_id)),
+      yaw_(yawOf(info_.origin.orientation)),
+      cos_(std::cos(yaw_)),
+      sin_(std::sin(yaw_)) {}
+
+geometry_msgs::Point MapGeometry::centreOf(Cell cell) const {
+  const double along_x = (cell.x + 0.5) * info_.resolution;
+  const double along_y = (static_cast<double>(info_.height) - cell.y - 0.5) * info_.resolution;
+  geometry_msgs::Point point = info_.origin.position;
+  point.x += cos_ * along_x - sin_ * along_y;
+  point.y += sin_ * along_x + cos_ * along_y;
+  return point;
+}
+
+Cell MapGeometry::cellAt(const geometry_msgs::Point& point) const {
+  const double dx = point.x - info_.origin.position.x;
+  const double dy = point.y - info_.origin.position.y;
+  // A point far outside, or lost by overflow, does not fit an integer: just outside says as much.
+  const auto cellsAlong = [this](double metres, std::uint32_t cells) {
+    const double along = std::floor(metres / info_.resolution);
+    return along >= 0 ? static_cast<std::int32_t>(std::min<double>(along, cells)) : -1;
+  };
+  const std::int32_t column = cellsAlong(cos_ * dx + sin_ * dy, info_.width);
+  const std::int32_t row = cellsAlong(cos_ * dy - sin_ * dx, info_.height);
+  return {column, static_cast<std::int32_t>(info_.height) - 1 - row};
+}
+
+std::uint32_t MapGeometry::indexOf(Cell cell) const {
+  return (info_.height - 1 - static_cast<std::uint32_t>(cell.y)) * info_.width +
+         static_cast<std::uint32_t>(cell.x);
+}
+
+Cell MapGeometry::cellOf(std::uint32_t index) const {
+  const std::uint32_t row = index / info_.width;
+  if (row >= info_.height) return {-1, -1};
+  return {static_cast<std::int32_t>(index % info_.width),
+          static_cast<std::int32_t>(info_.height - 1 - row)};
+}
+
+std::string MapGeometry::describe(Cell cell) const {
+  return toString(Cell{cell.x, static_cast<std::int32_t>(info_.height) - 1 - cell.y});
+}
+
+PlanningGrid makePlanningGrid(const nav_msgs::OccupancyGrid& map, const OccupancyRule& rule) {
+  MapGeometry geometry(map.info, map.header.frame_id);
+  const std::size_t width = map.info.width;
+  const std::size_t height = map.info.height;
+  if (map.data.size() != width * height) {
+    refuse("its data has " + std::to_string(map.data.size()) + " cells, but " +
+           std::to_string(width) + "x" + std::to_string(height) + " = " +
+           std::to_string(width * height) + " are announced");
+  }
+  const std::vector<bool> bottom_up = freeCells(map.data, rule);
+  std::vector<bool> top_down(bottom_up.size());
+  for (std::size_t row = 0; row < height; ++row) {
+    std::copy_n(bottom_up.begin() + static_cast<std::ptrdiff_t>(row * width), width,
+                top_down.begin() + static_cast<std::ptrdiff_t>((height - 1 - row) * width));
+  }
+  try {
+    return {std::make_shared<const Grid>(map.info.width, map.info.height, top_down), geometry};
+  } catch (const InputError& error) {
+    refuse(error.what());
+  }
+}
+
+nav_msgs::OccupancyGrid toMessage(const PlanningGrid& grid, const ros::Time& stamp) {
+  nav_msgs::OccupancyGrid message;
+  message.header.frame_id = grid.geometry.frame();
+  message.header.stamp = stamp;
+  message.info = grid.geometry.info();
+  message.data.assign(std::size_t{grid.grid->width()} * grid.grid->height(), 100);
+  for (Vertex v = 0; v < grid.grid->size(); ++v) {
+    message.data[grid.geometry.indexOf(grid.grid->cellOf(v))] = 0;
+  }
+  return message;
+}
+
+}  // namespace split_mapf
