@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "pipeline/plan_run.h"
+#include "pipeline/checked_request.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/named_values.h"
 #include "split_mapf/split/split_options.h"

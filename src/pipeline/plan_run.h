@@ -1,31 +1,16 @@
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <mutex>
-#include <string>
-#include <vector>
+#include <optional>
 
-#include "split_mapf/pipeline/planner.h"
+#include "pipeline/checked_request.h"
+#include "pipeline/piece_solver.h"
+#include "pipeline/run_log.h"
 #include "split_mapf/split/decomposition.h"
-#include "split_mapf/split/split_options.h"
-#include "split_mapf/split/split_spec.h"
+#include "split_mapf/split/time_split.h"
 
 namespace split_mapf {
 
-/// A request whose every option has been read and found right.
-struct CheckedRequest {
-  PlanRequest asked;
-  std::string solver;  ///< what `auto` stands for, or as asked
-  SolverOptions solver_options;
-  SplitSpec split;  ///< never kAuto
-  SplitOptions split_options;
-};
-
-/// Reads a request. @throws UnknownSolverError, SplitSpecError, OptionError.
-CheckedRequest check(const PlanRequest& request, const SolverRegistry& solvers);
-
-/// One call of Planner::plan(): its clock, its progress, its report.
+/// One call of Planner::plan(): its stages, from the instance to the validated plan.
 class PlanRun {
  public:
   PlanRun(const Instance& instance, CheckedRequest request, const SolverRegistry& solvers,
@@ -34,34 +19,23 @@ class PlanRun {
 
  private:
   void runStages();
-  void enterStage(const std::string& name);
-  void leaveStage();
   bool computeDistances();
+  /// True when a robot has no way to its goal; otherwise the bounds of the shortest paths are set.
   bool reportCutOff();
   std::optional<Decomposition> split();
-  /// Solves the leaves and stitches their plans. False when a piece has no plan; `report_` then
-  /// says why the whole ended.
-  bool solve(const Decomposition& tree);
-  void solvePiece(const Decomposition& leaf, const Deadline& deadline, SolveResult& result,
-                  SubproblemReport& row);
-  bool takeResults(const Decomposition& tree, std::vector<SolveResult>& results);
+  std::optional<Plan> solve(const Decomposition& tree);
+  void takeVerdict(const SolveResult& result);
   void accept(Plan plan);
   void interrupt();
-  double elapsedSec() const;
-  void tell();
+  TimeSplitOptions timeSplitOptions() const;
 
   const Instance& instance_;
   CheckedRequest request_;
   Executor& executor_;
   const Deadline& deadline_;
-  const ProgressCallback& callback_;
-  Deadline::Clock::time_point begin_;
-  std::unique_ptr<Solver> solver_;
+  RunLog log_;
+  PieceSolver piece_solver_;
   PlanReport report_;
-
-  Deadline::Clock::time_point stage_begin_;
-  std::mutex progress_mutex_;
-  PlanProgress progress_;
 };
 
 }  // namespace split_mapf

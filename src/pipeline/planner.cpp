@@ -1,5 +1,6 @@
 #include "split_mapf/pipeline/planner.h"
 
+#include "pipeline/checked_request.h"
 #include "pipeline/plan_run.h"
 
 namespace split_mapf {

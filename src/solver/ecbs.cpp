@@ -9,7 +9,9 @@
 namespace split_mapf {
 
 EcbsSolver::EcbsSolver(const SolverOptions& options)
-    : objective_(options.objective), suboptimality_(options.suboptimality) {
+    : objective_(options.objective),
+      suboptimality_(options.suboptimality),
+      expansion_limit_(options.expansion_limit) {
   if (!std::isfinite(suboptimality_) || suboptimality_ < 1) {
     throw OptionError("suboptimality " + std::to_string(suboptimality_) +
                       " is out of range: a number of at least 1 is expected");
@@ -25,7 +27,7 @@ SolverInfo EcbsSolver::info() {
 
 SolveResult EcbsSolver::solve(const Instance& instance, const Deadline& deadline) const {
   if (const auto robot = findCutOffRobot(instance)) return cutOffResult(*robot);
-  return EcbsSearch(instance, objective_, suboptimality_, deadline).run();
+  return EcbsSearch(instance, objective_, suboptimality_, expansion_limit_, deadline).run();
 }
 
 }  // namespace split_mapf

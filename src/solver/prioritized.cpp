@@ -50,12 +50,12 @@ class TriedOrders {
   std::unordered_set<std::size_t> hashes_;
 };
 
-enum class Attempt { kDone, kBlocked, kInterrupted };
+enum class Attempt { kDone, kBlocked, kInterrupted, kExhausted };
 
 /// Plans all robots in one order; `failed` is the position of the robot that found no path.
 Attempt planInOrder(const Instance& instance, const Order& order, const Deadline& deadline,
-                    SafeIntervalSearch& search, PathTable& table, SolveResult& result,
-                    std::size_t& failed) {
+                    SafeIntervalSearch& search, PathTable& table, std::uint64_t limit,
+                    SolveResult& result, std::size_t& failed) {
   table.clear();
   Plan plan;
   plan.paths.resize(instance.robots());
@@ -70,6 +70,7 @@ Attempt planInOrder(const Instance& instance, const Order& order, const Deadline
     SearchAnswer answer = search.search(query, deadline);
     result.low_level_expansions += answer.expansions;
     if (answer.interrupted) return Attempt::kInterrupted;
+    if (limit > 0 && result.low_level_expansions > limit) return Attempt::kExhausted;
     if (answer.path.empty()) {
       failed = i;
       return Attempt::kBlocked;
@@ -84,7 +85,9 @@ Attempt planInOrder(const Instance& instance, const Order& order, const Deadline
 }  // namespace
 
 PrioritizedSolver::PrioritizedSolver(const SolverOptions& options)
-    : objective_(options.objective), seed_(options.seed) {
+    : objective_(options.objective),
+      seed_(options.seed),
+      expansion_limit_(options.expansion_limit) {
   const OptionValues values(options.values);
   settings_.order = values.choice("order", settings_.order,
                                   {"shortest_first", "longest_first", "random", "given"});
@@ -120,8 +123,10 @@ SolveResult PrioritizedSolver::solve(const Instance& instance, const Deadline& d
     }
     ++result.high_level_nodes;
     std::size_t failed = 0;
-    const Attempt attempt = planInOrder(instance, order, deadline, search, table, result, failed);
+    const Attempt attempt =
+        planInOrder(instance, order, deadline, search, table, expansion_limit_, result, failed);
     if (attempt == Attempt::kDone) break;
+    if (attempt == Attempt::kExhausted) return outOfExpansions(expansion_limit_);
     if (attempt == Attempt::kInterrupted) {
       result.termination = interruptionOf(deadline);
       return result;

@@ -19,6 +19,13 @@ Termination interruptionOf(const Deadline& deadline) {
   return deadline.stopRequested() ? Termination::kCancelled : Termination::kTimeout;
 }
 
+SolveResult outOfExpansions(std::uint64_t limit) {
+  SolveResult result;
+  result.termination = Termination::kNoPlanFound;
+  result.message = "gave up after " + std::to_string(limit) + " expansions";
+  return result;
+}
+
 void certifyByLowerBound(SolveResult& result, Objective objective, const std::string& solver) {
   if (!result.plan || costOf(*result.plan, objective) != result.lower_bound) return;
   result.optimal = true;

@@ -10,6 +10,8 @@ namespace split_mapf {
 const std::vector<SplitOptionInfo>& splitOptions() {
   static const std::vector<SplitOptionInfo> options = {
       {"compaction", "true", "remove waiting that the seams brought in: true or false"},
+      {"replan", "3",
+       "passes of planning robots anew, one at a time, across the seams after compaction; 0: none"},
       {"variant", "the objective's own",
        "where robots are at the seams of a time split: makespan (each at its share of its way) or "
        "sum_of_costs (as far as time allows)"},
@@ -36,6 +38,8 @@ SplitOptions readSplitOptions(const std::map<std::string, std::string>& values,
           ? TimeSplitVariant::kMakespan
           : TimeSplitVariant::kSumOfCosts;
   options.compaction = reader.flag("compaction", options.compaction);
+  options.replan_passes = static_cast<std::uint32_t>(
+      std::min<std::uint64_t>(reader.count("replan", options.replan_passes), 1000000));
   return options;
 }
 

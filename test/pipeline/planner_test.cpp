@@ -55,7 +55,7 @@ TEST(Planner, ReportsTheWholeWay) {
   std::vector<std::string> stages;
   for (const auto& stage : report.stages) stages.push_back(stage.first);
   EXPECT_EQ(stages, (std::vector<std::string>{"distances", "split", "solve", "stitch", "compact",
-                                              "validate"}));
+                                              "replan", "validate"}));
 }
 
 TEST(Planner, TheSamePlanAtAnyNumberOfThreads) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "split_mapf/solver/registry.h"
 #include "split_mapf/solver/solver.h"
 
@@ -26,6 +28,7 @@ class EcbsSolver : public Solver {
  private:
   Objective objective_;
   double suboptimality_;
+  std::uint64_t expansion_limit_;
 };
 
 }  // namespace split_mapf

@@ -28,6 +28,7 @@ class PrioritizedSolver : public Solver {
  private:
   Objective objective_;
   std::uint64_t seed_;
+  std::uint64_t expansion_limit_;
   Settings settings_;
 };
 

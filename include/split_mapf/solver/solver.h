@@ -28,8 +28,11 @@ struct SolveResult {
 /// What every solver is told beside the instance.
 struct SolverOptions {
   Objective objective = Objective::kMakespan;
-  double suboptimality = 1.5;                 ///< bound w >= 1 of bounded-suboptimal solvers
-  std::uint64_t seed = 0;                     ///< all randomness
+  double suboptimality = 1.5;  ///< bound w >= 1 of bounded-suboptimal solvers
+  std::uint64_t seed = 0;      ///< all randomness
+  /// Expanded states of single-robot searches after which the solver gives up with kNoPlanFound; 0:
+  /// none. Unlike a deadline it cuts the search at the same place on every machine.
+  std::uint64_t expansion_limit = 0;
   std::map<std::string, std::string> values;  ///< the solver's own options, by name
 };
 
@@ -50,6 +53,8 @@ std::uint64_t lowerBound(const Instance& instance, Objective objective);
 SolveResult cutOffResult(std::uint32_t robot);
 /// What ended a search whose deadline has expired: kCancelled or kTimeout.
 Termination interruptionOf(const Deadline& deadline);
+/// kNoPlanFound, with a message that names the limit.
+SolveResult outOfExpansions(std::uint64_t limit);
 /// Marks a solved result as optimal when its cost meets its lower bound.
 void certifyByLowerBound(SolveResult& result, Objective objective, const std::string& solver);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -23,6 +24,7 @@ const std::vector<SplitOptionInfo>& splitOptions();
 struct SplitOptions {
   TimeSplitVariant variant = TimeSplitVariant::kMakespan;
   bool compaction = true;
+  std::uint32_t replan_passes = 3;
 };
 
 /// Reads split options. @throws OptionError for an unknown name or value.

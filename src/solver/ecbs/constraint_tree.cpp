@@ -31,6 +31,11 @@ std::uint64_t ConstraintTree::lowerBound() {
   return open_.top().key;
 }
 
+std::uint32_t ConstraintTree::lowest() {
+  dropClosed(open_);
+  return open_.top().node;
+}
+
 std::uint64_t ConstraintTree::limit(std::uint64_t lower_bound) const {
   // The epsilon keeps a product such as 1.1 * 10 from falling below its exact value.
   return static_cast<std::uint64_t>(

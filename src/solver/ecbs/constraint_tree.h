@@ -39,6 +39,8 @@ class ConstraintTree {
   bool empty();
   /// The least lower bound of an open node. @pre !empty()
   std::uint64_t lowerBound();
+  /// The open node of the least lower bound; it stays open until close(). @pre !empty()
+  std::uint32_t lowest();
   /// The best node of FOCAL; it stays open until close(). @pre !empty()
   std::uint32_t best();
   void close(std::uint32_t number);

@@ -15,8 +15,9 @@ namespace split_mapf {
 /// One run of enhanced conflict-based search. See EcbsSolver for the method.
 class EcbsSearch {
  public:
+  /// @param expansion_limit  as in SolverOptions.
   EcbsSearch(const Instance& instance, Objective objective, double suboptimality,
-             const Deadline& deadline);
+             std::uint64_t expansion_limit, const Deadline& deadline);
   SolveResult run();
 
  private:
@@ -47,13 +48,15 @@ class EcbsSearch {
 
   const Instance& instance_;
   Objective objective_;
+  std::uint64_t expansion_limit_;
   const Deadline& deadline_;
   ConstraintTree tree_;
   PathTable table_;
   SafeIntervalSearch search_;
   ConflictFinder finder_;
   RobotConstraints constraints_;
-  bool interrupted_ = false;
+  bool interrupted_ = false;  // by the deadline or the limit of expansions
+  bool exhausted_ = false;    // by the limit
   std::uint64_t expansions_ = 0;
 
   // The plan of the node that is loaded into the table.

@@ -1,0 +1,85 @@
+#include "pipeline/piece_solver.h"
+
+#include <cstdlib>
+#include <memory>
+#include <new>
+#include <utility>
+
+namespace split_mapf {
+namespace {
+
+/// How long a piece is expected to take, in any unit: longest first keeps the workers busy.
+double expectedEffort(const Decomposition& leaf) {
+  double steps = 0;
+  for (std::uint32_t i = 0; i < leaf.instance->robots(); ++i) {
+    const Cell from = leaf.instance->grid().cellOf(leaf.instance->start(i));
+    const Cell to = leaf.instance->grid().cellOf(leaf.instance->goal(i));
+    steps += std::abs(from.x - to.x) + std::abs(from.y - to.y);
+  }
+  return steps;
+}
+
+// A piece usually takes a few expansions a step of its robots' shortest ways; this many mean that
+// its search has run into trouble. The floor keeps small pieces from giving up at once.
+constexpr std::uint64_t kExpansionsAStep = 60;
+constexpr std::uint64_t kLeastExpansions = 300000;
+
+std::uint64_t usualEffort(const Instance& piece) {
+  return kLeastExpansions + kExpansionsAStep * sumOfCostsLowerBound(piece);
+}
+
+bool endsTheRun(Termination termination) {
+  return termination == Termination::kTimeout || termination == Termination::kMemoryLimit;
+}
+
+}  // namespace
+
+std::vector<SolveResult> PieceSolver::solve(const std::vector<PieceTask>& tasks,
+                                            std::vector<SubproblemReport>& rows) {
+  const auto stop = std::make_shared<StopFlag>(deadline_.stopFlag());
+  const Deadline deadline = deadline_.withStop(stop);
+  std::vector<SolveResult> results(tasks.size());
+  const std::size_t first_row = rows.size();
+  rows.resize(first_row + tasks.size());
+  std::vector<Executor::Job> jobs(tasks.size());
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    jobs[i].expected_effort = expectedEffort(*tasks[i].leaf);
+    jobs[i].run = [&, i] {
+      results[i] = solveOne(tasks[i], deadline, rows[first_row + i]);
+      if (endsTheRun(results[i].termination)) stop->request();
+      log_.pieceDone();
+    };
+  }
+  executor_.run(std::move(jobs), request_.asked.threads);
+  return results;
+}
+
+SolveResult PieceSolver::solveOne(const PieceTask& task, const Deadline& deadline,
+                                  SubproblemReport& row) const {
+  const Deadline::Clock::time_point begin = Deadline::Clock::now();
+  const Instance& piece = *task.leaf->instance;
+  row.phase = task.leaf->phase;
+  row.region = task.leaf->region;
+  row.agents = piece.robots();
+  row.solver = request_.solver;
+  SolveResult result;
+  if (deadline.expired()) {
+    result.termination = interruptionOf(deadline);
+  } else {
+    try {
+      SolverOptions options = request_.solver_options;
+      if (task.shares > 0) options.expansion_limit = task.shares * usualEffort(piece);
+      result = solvers_.create(request_.solver, options)->solve(piece, deadline);
+      row.horizon = makespanLowerBound(piece);
+    } catch (const std::bad_alloc&) {
+      result = SolveResult();
+      result.termination = Termination::kMemoryLimit;
+      result.message = "memory ran out while a piece was solved";
+    }
+  }
+  row.status = toString(result.termination);
+  row.seconds = std::chrono::duration<double>(Deadline::Clock::now() - begin).count();
+  return result;
+}
+
+}  // namespace split_mapf

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "pipeline/checked_request.h"
+#include "pipeline/run_log.h"
+#include "split_mapf/core/plan_report.h"
+#include "split_mapf/pipeline/executor.h"
+#include "split_mapf/split/decomposition.h"
+
+namespace split_mapf {
+
+/// One piece and how much effort it may take.
+struct PieceTask {
+  const Decomposition* leaf = nullptr;
+  std::uint32_t shares = 0;  ///< multiples of the usual effort after which it gives up; 0: no limit
+};
+
+/// Solves pieces in worker threads, longest expected first.
+class PieceSolver {
+ public:
+  PieceSolver(const CheckedRequest& request, const SolverRegistry& solvers, Executor& executor,
+              const Deadline& deadline, RunLog& log)
+      : request_(request), solvers_(solvers), executor_(executor), deadline_(deadline), log_(log) {}
+
+  /// One result a task, in their order; a row a task is appended to `rows`. Results do not depend
+  /// on the number of threads. A time-out or a lack of memory of one piece stops the others, as it
+  /// makes them useless; one that merely has no plan does not.
+  std::vector<SolveResult> solve(const std::vector<PieceTask>& tasks,
+                                 std::vector<SubproblemReport>& rows);
+
+ private:
+  SolveResult solveOne(const PieceTask& task, const Deadline& deadline,
+                       SubproblemReport& row) const;
+
+  const CheckedRequest& request_;
+  const SolverRegistry& solvers_;
+  Executor& executor_;
+  const Deadline& deadline_;
+  RunLog& log_;
+};
+
+}  // namespace split_mapf

@@ -1,0 +1,122 @@
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <set>
+
+#include "split_mapf/core/validate.h"
+#include "split_mapf/pipeline/planner.h"
+#include "split_mapf/solver/ecbs.h"
+#include "support/ascii_grid.h"
+#include "support/fake_solver.h"
+
+namespace split_mapf {
+namespace {
+
+Instance crossing() {
+  return test::instanceFromAscii({"a.......", "b.......", "c.......", "d.......", "........"},
+                                 {".......d", ".......c", ".......b", ".......a", "........"});
+}
+
+/// Solves a piece unless `refuses` says that it should fail.
+class Picky {
+ public:
+  explicit Picky(std::function<bool(const Instance&)> refuses) : refuses_(std::move(refuses)) {
+    registry_.add(test::fakeSolver("picky", [this](const Instance& piece, const Deadline& d) {
+      ++calls_;
+      if (!refuses_(piece)) return EcbsSolver(SolverOptions()).solve(piece, d);
+      SolveResult failure;
+      failure.termination = Termination::kNoPlanFound;
+      failure.message = "picky";
+      return failure;
+    }));
+  }
+
+  PlanReport plan(const Instance& instance, const std::string& split, std::uint32_t threads) {
+    Executor executor(threads);
+    PlanRequest request;
+    request.solver = "picky";
+    request.split = split;
+    return Planner(registry_, executor).plan(instance, request, Deadline());
+  }
+  int calls() const { return calls_; }
+
+ private:
+  std::function<bool(const Instance&)> refuses_;
+  std::atomic<int> calls_{0};
+  SolverRegistry registry_;
+};
+
+TEST(PieceLadder, CutsAFailedPieceAnewWithOtherStates) {
+  const Instance instance = crossing();
+  // Refuses exactly the seam that it sees first.
+  std::vector<Vertex> refused;
+  Picky solver([&](const Instance& piece) {
+    if (piece.starts() != instance.starts()) return false;
+    if (refused.empty()) refused = piece.goals();
+    return piece.goals() == refused;
+  });
+  const PlanReport report = solver.plan(instance, "2t", 1);
+  ASSERT_EQ(report.termination, Termination::kSolved);
+  ASSERT_EQ(report.subproblems.size(), 4U);
+  EXPECT_EQ(report.subproblems[0].status, "no_plan_found");
+  EXPECT_EQ(report.subproblems[2].status, "solved");
+  EXPECT_EQ(report.subproblems[3].status, "solved");
+}
+
+TEST(PieceLadder, MergesWithTheNeighbourWhenCuttingAnewDoesNotHelp) {
+  const Instance instance = crossing();
+  // Refuses whatever ends before the second half.
+  Picky solver([&](const Instance& piece) {
+    return piece.starts() == instance.starts() && makespanLowerBound(piece) < 4;
+  });
+  const PlanReport report = solver.plan(instance, "4t", 2);
+  ASSERT_EQ(report.termination, Termination::kSolved);
+  ASSERT_TRUE(report.plan);
+  EXPECT_TRUE(validate(instance, *report.plan).empty());
+  EXPECT_GT(report.subproblems.size(), 4U);
+}
+
+TEST(PieceLadder, EndsWithTheWholeHoweverManyPiecesFail) {
+  const Instance instance = crossing();
+  Picky solver([&](const Instance& piece) {
+    return piece.starts() != instance.starts() || piece.goals() != instance.goals();
+  });
+  const PlanReport report = solver.plan(instance, "8t", 2);
+  EXPECT_EQ(report.termination, Termination::kSolved);
+  EXPECT_EQ(report.subproblems.back().status, "solved");
+  EXPECT_LE(solver.calls(), 8 * 4) << "each rung has fewer pieces or fewer fresh seams";
+}
+
+TEST(PieceLadder, TheWholesAnswerIsTheAnswer) {
+  Picky solver([](const Instance&) { return true; });
+  const PlanReport report = solver.plan(crossing(), "4t", 2);
+  EXPECT_EQ(report.termination, Termination::kNoPlanFound);
+  EXPECT_EQ(report.message, "picky");
+  EXPECT_FALSE(report.plan);
+}
+
+TEST(PieceLadder, TheSamePlanAtAnyNumberOfThreadsWhenPiecesFail) {
+  const Instance instance = crossing();
+  std::set<std::vector<Path>> plans;
+  for (const std::uint32_t threads : {1U, 2U, 8U}) {
+    Picky solver([](const Instance& piece) { return sumOfCostsLowerBound(piece) % 3 == 1; });
+    const PlanReport report = solver.plan(instance, "5t", threads);
+    ASSERT_TRUE(report.plan);
+    plans.insert(report.plan->paths);
+  }
+  EXPECT_EQ(plans.size(), 1U);
+}
+
+TEST(ExpansionLimit, SolversGiveUpHonestly) {
+  const Instance instance = crossing();
+  for (const std::string& name : builtinSolvers().names()) {
+    SolverOptions options;
+    options.expansion_limit = 1;
+    const SolveResult result = builtinSolvers().create(name, options)->solve(instance, Deadline());
+    EXPECT_EQ(result.termination, Termination::kNoPlanFound) << name;
+    EXPECT_FALSE(result.plan) << name;
+  }
+}
+
+}  // namespace
+}  // namespace split_mapf

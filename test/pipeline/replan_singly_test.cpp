@@ -1,0 +1,52 @@
+#include "pipeline/replan_singly.h"
+
+#include <gtest/gtest.h>
+
+#include "split_mapf/core/validate.h"
+#include "split_mapf/pipeline/planner.h"
+#include "support/ascii_grid.h"
+#include "support/small_instances.h"
+
+namespace split_mapf {
+namespace {
+
+TEST(ReplanSingly, TakesTheShorterWayThatTheOthersLeaveOpen) {
+  const Instance instance = test::instanceFromAscii({"a....", "b...."}, {"....a", "....b"});
+  const Plan plan = {{{0, 0, 0, 1, 2, 3, 4}, {5, 6, 7, 8, 9}}};
+  const Plan better = replanSingly(instance, plan, 1, Deadline());
+  EXPECT_TRUE(validate(instance, better).empty());
+  EXPECT_EQ(costOf(better.paths[0]), 4U);
+  EXPECT_EQ(better.paths[1], plan.paths[1]);
+}
+
+TEST(ReplanSingly, NobodyArrivesLaterOnRandomPlans) {
+  Executor executor(1);
+  int gained = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Instance instance = test::smallInstance(seed);
+    PlanRequest request;
+    request.solver = "ecbs";
+    request.split = "2t";
+    request.split_options = {"replan=0", "compaction=false"};
+    const PlanReport report =
+        Planner(builtinSolvers(), executor).plan(instance, request, Deadline(2));
+    if (!report.plan) continue;
+    const Plan better = replanSingly(instance, *report.plan, 3, Deadline());
+    EXPECT_TRUE(validate(instance, better).empty());
+    for (std::uint32_t i = 0; i < instance.robots(); ++i) {
+      EXPECT_LE(costOf(better.paths[i]), costOf(report.plan->paths[i]));
+    }
+    gained += sumOfCostsOf(better) < sumOfCostsOf(*report.plan);
+  }
+  EXPECT_GT(gained, 10);
+}
+
+TEST(ReplanSingly, AnExpiredDeadlineReturnsThePlanAsItIs) {
+  const Instance instance = test::instanceFromAscii({"a....", "b...."}, {"....a", "....b"});
+  const Plan plan = {{{0, 0, 0, 1, 2, 3, 4}, {5, 6, 7, 8, 9}}};
+  EXPECT_EQ(replanSingly(instance, plan, 3, Deadline(0)).paths, plan.paths);
+}
+
+}  // namespace
+}  // namespace split_mapf
