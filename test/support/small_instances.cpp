@@ -1,5 +1,6 @@
 #include "support/small_instances.h"
 
+#include <algorithm>
 #include <memory>
 #include <numeric>
 #include <utility>
@@ -14,10 +15,10 @@ std::uint32_t drawBetween(RandomEngine& engine, std::uint32_t least, std::uint32
   return least + static_cast<std::uint32_t>(drawBelow(engine, most - least + 1));
 }
 
-/// Four robots only on maps that keep the oracle fast.
-std::uint32_t mostRobots(std::uint32_t free_cells) {
-  if (free_cells <= 12) return 4;
-  return free_cells <= 20 ? 3 : 2;
+/// Many robots rather than few, but four only on maps that keep the oracle fast.
+std::uint32_t drawRobots(RandomEngine& engine, std::uint32_t free_cells) {
+  const std::uint32_t most = free_cells <= 12 ? 4 : 3;
+  return std::max(drawBetween(engine, 1, most), drawBetween(engine, 1, most));
 }
 
 }  // namespace
@@ -35,7 +36,7 @@ Instance smallInstance(std::uint64_t seed) {
   auto grid = std::make_shared<const Grid>(width, height, free);
   std::vector<Vertex> cells(grid->size());
   std::iota(cells.begin(), cells.end(), 0U);
-  const std::uint32_t robots = drawBetween(engine, 1, mostRobots(grid->size()));
+  const std::uint32_t robots = drawRobots(engine, grid->size());
   shuffle(cells, engine);
   const std::vector<Vertex> starts(cells.begin(), cells.begin() + robots);
   shuffle(cells, engine);
