@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -20,38 +21,44 @@ struct Executor::Pool {
 
 namespace {
 
+// A stop flag cannot wake a sleeper, so that a waiting caller looks at its deadline this often.
+constexpr std::chrono::milliseconds kPollInterval(20);
+
 /// Jobs that are run together. Workers draw the next one until none is left.
 class Batch {
  public:
-  Batch(std::vector<Executor::Job> jobs, std::uint32_t drawers)
-      : jobs_(std::move(jobs)), drawers_(drawers) {}
+  explicit Batch(std::vector<Executor::Job> jobs)
+      : jobs_(std::move(jobs)), unfinished_(jobs_.size()) {}
 
-  /// The part of one worker.
+  /// The part of one worker. One that comes late finds nothing to do.
   void draw() {
     for (;;) {
       const std::size_t i = next_.fetch_add(1);
-      if (i >= jobs_.size()) break;
+      if (i >= jobs_.size()) return;
+      std::exception_ptr error;
       try {
         jobs_[i].run();
       } catch (...) {
-        const std::lock_guard<std::mutex> lock(mutex_);
-        if (!error_) error_ = std::current_exception();
+        error = std::current_exception();
       }
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (!error_) error_ = error;
+      if (--unfinished_ == 0) done_.notify_all();
     }
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (--drawers_ == 0) done_.notify_all();
   }
 
-  /// Tells that `missing` of the announced workers will not come.
-  void withdraw(std::uint32_t missing) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    drawers_ -= missing;
-    if (drawers_ == 0) done_.notify_all();
-  }
-
-  void wait() {
+  /// Waits for the last job. Once the deadline has expired, the caller draws too: all workers may
+  /// be busy with other batches for long.
+  void wait(const Deadline& deadline) {
     std::unique_lock<std::mutex> lock(mutex_);
-    done_.wait(lock, [this] { return drawers_ == 0; });
+    const auto is_done = [this] { return unfinished_ == 0; };
+    while (!done_.wait_for(lock, kPollInterval, is_done)) {
+      if (!deadline.expired()) continue;
+      lock.unlock();
+      draw();
+      lock.lock();
+      done_.wait(lock, is_done);
+    }
     if (error_) std::rethrow_exception(error_);
   }
 
@@ -60,7 +67,7 @@ class Batch {
   std::atomic<std::size_t> next_{0};
   std::mutex mutex_;
   std::condition_variable done_;
-  std::uint32_t drawers_;
+  std::size_t unfinished_;
   std::exception_ptr error_;
 };
 
@@ -71,29 +78,28 @@ Executor::Executor(std::uint32_t threads)
 
 Executor::~Executor() { pool_->workers.join(); }
 
-void Executor::run(std::vector<Job> jobs, std::uint32_t threads) {
+void Executor::run(std::vector<Job> jobs, std::uint32_t threads, const Deadline& deadline) {
   if (jobs.empty()) return;
   std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) {
     return a.expected_effort > b.expected_effort;
   });
   const std::uint32_t allowed = threads == 0 ? threads_ : std::min(threads, threads_);
-  const auto drawers = static_cast<std::uint32_t>(std::min<std::size_t>(allowed, jobs.size()));
-  const auto batch = std::make_shared<Batch>(std::move(jobs), drawers);
-  for (std::uint32_t posted = 0; posted < drawers; ++posted) {
+  const std::size_t drawers = std::min<std::size_t>(allowed, jobs.size());
+  const auto batch = std::make_shared<Batch>(std::move(jobs));
+  for (std::size_t posted = 0; posted < drawers; ++posted) {
     try {
       boost::asio::post(pool_->workers, [batch] { batch->draw(); });
     } catch (const std::bad_alloc&) {
       // Those that are posted can do all the work; without any the caller does it.
-      batch->withdraw(drawers - std::max(posted, 1U));
       if (posted == 0) batch->draw();
       break;
     }
   }
-  batch->wait();
+  batch->wait(deadline);
 }
 
 void Executor::forEach(std::uint32_t count, const std::function<void(std::uint32_t)>& body,
-                       std::uint32_t threads) {
+                       std::uint32_t threads, const Deadline& deadline) {
   const std::uint32_t allowed = threads == 0 ? threads_ : std::min(threads, threads_);
   const std::uint32_t chunks = std::min(count, allowed * 8);
   std::vector<Job> jobs(chunks);
@@ -104,7 +110,7 @@ void Executor::forEach(std::uint32_t count, const std::function<void(std::uint32
       for (std::uint32_t i = begin; i < end; ++i) body(i);
     };
   }
-  run(std::move(jobs), threads);
+  run(std::move(jobs), threads, deadline);
 }
 
 }  // namespace split_mapf

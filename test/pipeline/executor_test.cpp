@@ -82,5 +82,28 @@ TEST(Executor, NoJobsAreDoneAtOnce) {
   executor.forEach(0, [](std::uint32_t) { FAIL(); });
 }
 
+TEST(Executor, GivesBackAnExpiredBatchWhileOthersKeepTheWorkersBusy) {
+  Executor executor(2);
+  std::atomic<bool> release{false};
+  std::atomic<int> busy{0};
+  std::vector<Executor::Job> long_jobs(2);
+  for (Executor::Job& job : long_jobs) {
+    job.run = [&] {
+      ++busy;
+      while (!release) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    };
+  }
+  std::thread other([&] { executor.run(long_jobs); });
+  while (busy < 2) std::this_thread::yield();
+  const Deadline deadline(0.05);
+  std::atomic<int> ended{0};
+  executor.forEach(
+      100, [&](std::uint32_t) { ended += deadline.expired() ? 1 : 0; }, 0, deadline);
+  EXPECT_EQ(ended, 100);
+  EXPECT_FALSE(release);
+  release = true;
+  other.join();
+}
+
 }  // namespace
 }  // namespace split_mapf

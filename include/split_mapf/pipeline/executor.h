@@ -5,6 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "split_mapf/core/deadline.h"
+
 namespace split_mapf {
 
 /// Worker threads shared by every caller. Batches are served in order of arrival, the jobs of a
@@ -29,10 +31,12 @@ class Executor {
   /// Runs all jobs on at most `threads` workers (0: all) and returns when the last has ended. The
   /// first exception that a job throws is rethrown here, after all others have ended. Thread-safe;
   /// never call it from inside a job.
-  void run(std::vector<Job> jobs, std::uint32_t threads = 0);
+  /// Once `deadline` has expired, the caller itself runs what no worker has begun, which is quick
+  /// where the jobs poll the same deadline: other batches may keep the workers busy for long.
+  void run(std::vector<Job> jobs, std::uint32_t threads = 0, const Deadline& deadline = {});
   /// Calls body(i) for i in [0, count) on at most `threads` workers (0: all), in chunks.
   void forEach(std::uint32_t count, const std::function<void(std::uint32_t)>& body,
-               std::uint32_t threads = 0);
+               std::uint32_t threads = 0, const Deadline& deadline = {});
 
  private:
   struct Pool;
