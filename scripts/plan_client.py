@@ -1,0 +1,368 @@
+#!/usr/bin/env python3
+"""Sends a planning goal to the planner node and shows how it goes.
+
+The robots come from a MovingAI .scen, the map from a MovingAI .map or, without --map, from the
+topic `map` (for instance of: roslaunch split_mapf planner.launch map_file:=FILE). Ctrl-C cancels
+the goal.
+
+exit codes: 0 a valid plan, 1 bad usage or bad input, 2 no plan exists, 3 time limit, 4 cancelled,
+5 internal error or no answer from the node, 6 no plan found, 7 memory limit
+"""
+
+import argparse
+import json
+import sys
+import threading
+import time
+
+import actionlib
+import rospy
+from actionlib_msgs.msg import GoalStatus
+from nav_msgs.msg import OccupancyGrid
+
+from split_mapf.msg import PlanOutcome, PlanPathsAction, PlanPathsGoal, RobotTask
+
+FREE_CELLS = ".GS"
+BLOCKED_CELLS = "@OTW"
+OUTCOME_NAMES = {
+    value: name
+    for name, value in vars(PlanOutcome).items()
+    if name.isupper() and isinstance(value, int)
+}
+EXIT_CODES = {
+    PlanOutcome.SUCCEEDED: 0,
+    PlanOutcome.CANCELLED: 4,
+    PlanOutcome.TIMEOUT: 3,
+    PlanOutcome.UNSOLVABLE: 2,
+    PlanOutcome.UNREACHABLE_GOAL: 2,
+    PlanOutcome.NO_PLAN_FOUND: 6,
+    PlanOutcome.MEMORY_LIMIT: 7,
+    PlanOutcome.SERVER_BUSY: 5,
+    PlanOutcome.INTERNAL_ERROR: 5,
+}
+STATUS_WORDS = {0: "solved", 2: "unsolvable", 3: "timeout", 4: "cancelled", 6: "no_plan_found",
+                7: "memory_limit"}
+
+
+class InputError(Exception):
+    """A file that does not say what it should."""
+
+
+class NoAnswer(Exception):
+    """The planner node, or the map, is not there."""
+
+
+def read_lines(path):
+    try:
+        with open(path, encoding="ascii") as file:
+            return file.read().splitlines()
+    except UnicodeDecodeError as error:
+        raise InputError("%s: byte %d: read 0x%02x, expected text" %
+                         (path, error.start, error.object[error.start])) from error
+    except OSError as error:
+        raise InputError("%s: %s" % (path, error.strerror)) from error
+
+
+def read_map(path, resolution):
+    """Reads a MovingAI map as an OccupancyGrid in frame `map`, lower left corner at the origin."""
+    if not path.endswith(".map"):
+        raise InputError("%s: expected a MovingAI .map; for another map start the planner with "
+                         "map_file and leave --map out" % path)
+    lines = read_lines(path)
+    header = {}
+    for number, key in ((2, "height"), (3, "width")):
+        words = lines[number - 1].split() if len(lines) >= number else []
+        if len(words) != 2 or words[0] != key or not words[1].isdigit() or int(words[1]) == 0:
+            raise InputError("%s:%d: read '%s', expected '%s N'" %
+                             (path, number, " ".join(words), key))
+        header[key] = int(words[1])
+    if lines[3:4] != ["map"]:
+        raise InputError("%s:4: expected 'map'" % path)
+    rows = lines[4:]
+    if len(rows) != header["height"]:
+        raise InputError("%s: read %d rows, expected %d" % (path, len(rows), header["height"]))
+    grid = OccupancyGrid()
+    grid.header.frame_id = "map"
+    grid.info.resolution = resolution
+    grid.info.width, grid.info.height = header["width"], header["height"]
+    grid.info.origin.orientation.w = 1.0
+    grid.data = occupancy_of(path, rows, header["width"])
+    return grid
+
+
+def occupancy_of(path, rows, width):
+    """0 and 100 from the letters of a map; its last row is an OccupancyGrid's first."""
+    for index, row in enumerate(rows):
+        if len(row) != width:
+            raise InputError("%s:%d: read %d cells, expected %d" %
+                             (path, index + 5, len(row), width))
+        strange = set(row) - set(FREE_CELLS + BLOCKED_CELLS)
+        if strange:
+            raise InputError("%s:%d: read '%s', expected one of %s" %
+                             (path, index + 5, min(strange), FREE_CELLS + BLOCKED_CELLS))
+    return bytes(0 if cell in FREE_CELLS else 100 for row in reversed(rows) for cell in row)
+
+
+def read_scenario(path, grid, agents):
+    """The first `agents` rows (0: all) of a scenario, as (start x, start y, goal x, goal y)."""
+    lines = read_lines(path)
+    if not lines or not lines[0].startswith("version"):
+        raise InputError("%s:1: expected 'version 1'" % path)
+    rows = []
+    for number, line in enumerate(lines[1:], start=2):
+        if agents and len(rows) == agents:
+            break
+        words = line.split()
+        if not words:
+            continue
+        if len(words) != 9 or not all(word.isdigit() for word in words[2:8]):
+            raise InputError("%s:%d: read '%s', expected 9 columns: bucket, map, width, height, "
+                             "start x, start y, goal x, goal y, length" % (path, number, line))
+        width, height, *cells = (int(word) for word in words[2:8])
+        if (width, height) != (grid.info.width, grid.info.height):
+            raise InputError("%s:%d: made for a map of %dx%d cells, expected %dx%d" %
+                             (path, number, width, height, grid.info.width, grid.info.height))
+        rows.append(cells)
+    if len(rows) < max(agents, 1):
+        raise InputError("%s: read %d robots, expected %d" % (path, len(rows), max(agents, 1)))
+    return rows
+
+
+def wait_for_map(patience):
+    try:
+        return rospy.wait_for_message("map", OccupancyGrid, timeout=patience)
+    except rospy.ROSException as error:
+        raise NoAnswer("no map on the topic %s within %g s; give one with --map" %
+                       (rospy.resolve_name("map"), patience)) from error
+
+
+def place(pose, grid, x, y):
+    """Sets a pose to the centre of a cell, y counted from the top."""
+    info = grid.info
+    turn = info.origin.orientation
+    along_x = (x + 0.5) * info.resolution
+    along_y = (info.height - 1 - y + 0.5) * info.resolution
+    sine, cosine = 2 * turn.w * turn.z, 1 - 2 * turn.z * turn.z
+    pose.header.frame_id = grid.header.frame_id
+    pose.pose.position.x = info.origin.position.x + cosine * along_x - sine * along_y
+    pose.pose.position.y = info.origin.position.y + sine * along_x + cosine * along_y
+    pose.pose.orientation.w = 1.0
+
+
+def make_goal(args, grid, rows):
+    goal = PlanPathsGoal()
+    if args.map:
+        goal.map = grid
+    for index, (start_x, start_y, goal_x, goal_y) in enumerate(rows):
+        task = RobotTask(robot_id="r%d" % index)
+        place(task.start, grid, start_x, start_y)
+        place(task.goal, grid, goal_x, goal_y)
+        goal.robots.append(task)
+    for name in ("solver", "split", "objective", "suboptimality", "time_limit", "refine_time",
+                 "seed", "threads", "step_duration", "solver_options", "split_options"):
+        value = getattr(args, name)
+        if value is not None:
+            # In a goal 0 stands for the node's parameter, a negative number for zero.
+            setattr(goal.options, name, -1.0 if value == 0 and isinstance(value, float) else value)
+    return goal
+
+
+class ProgressLine:
+    """Feedback as one line that is written over; without a terminal a line each stage."""
+
+    def __init__(self, quiet):
+        self.quiet = quiet
+        self.lock = threading.Lock()
+        self.stage = None
+        self.is_drawn = False
+
+    def show(self, feedback):
+        if self.quiet:
+            return
+        text = "%6.1f s  %s" % (feedback.elapsed, feedback.stage)
+        if feedback.subproblems_total > 1:
+            text += "  %d/%d pieces" % (feedback.subproblems_done, feedback.subproblems_total)
+        if feedback.makespan:
+            text += "  makespan %d" % feedback.makespan
+        with self.lock:
+            if sys.stdout.isatty():
+                sys.stdout.write("\r\033[K" + text)
+                self.is_drawn = True
+            elif feedback.stage != self.stage:
+                sys.stdout.write(text + "\n")
+            self.stage = feedback.stage
+            sys.stdout.flush()
+
+    def close(self):
+        with self.lock:
+            if self.is_drawn:
+                sys.stdout.write("\n")
+            self.is_drawn = False
+
+
+def find_server(name, patience):
+    client = actionlib.ActionClient(name, PlanPathsAction)
+    if not client.wait_for_server(rospy.Duration(patience)):
+        raise NoAnswer("no planner answers on %s within %g s; is planner_node running?" %
+                       (rospy.resolve_name(name), patience))
+    return client
+
+
+def run_goal(client, goal, progress):
+    """Sends the goal and waits for its end. Returns its terminal state and the result."""
+    handle = client.send_goal(goal, feedback_cb=lambda _, feedback: progress.show(feedback))
+    cancelled = False
+    while handle.get_comm_state() != actionlib.CommState.DONE:
+        try:
+            time.sleep(0.02)
+            # The connection of the goal topic ends with the server.
+            if client.pub_goal.get_num_connections() == 0:
+                raise NoAnswer("the planner node has gone")
+        except KeyboardInterrupt:
+            if cancelled:
+                raise
+            cancelled = True
+            handle.cancel()
+    progress.close()
+    return handle.get_terminal_state(), handle.get_result()
+
+
+def print_outcome(state, result, seconds):
+    statistics = result.statistics
+    print("%s (%s) after %.2f s" % (OUTCOME_NAMES.get(result.outcome, str(result.outcome)),
+                                    GoalStatus.to_string(state), seconds))
+    print("  " + result.message)
+    for fault in result.faults[:10]:
+        print("  - " + fault.message)
+    if len(result.faults) > 10:
+        print("  - and %d more" % (len(result.faults) - 10))
+    if result.plan.paths:
+        print("  robots        %d" % len(result.plan.paths))
+        print_cost("makespan    ", result.plan.makespan, statistics.makespan_lower_bound)
+        print_cost("sum of costs", result.plan.sum_of_costs, statistics.sum_of_costs_lower_bound)
+        print("  planned in    %.2f s, %d pieces%s" %
+              (statistics.runtime, statistics.subproblems,
+               ", proved optimal by " + statistics.certified_by if statistics.optimal else ""))
+
+
+def print_cost(name, cost, bound):
+    ratio = "   %.3f times the lower bound %d" % (cost / bound, bound) if bound else ""
+    print("  %s  %d%s" % (name, cost, ratio))
+
+
+def write_json(path, result, exit_code):
+    """The fields of `split_mapf plan --output` that a result carries."""
+    plan, statistics = result.plan, result.statistics
+    width, height = plan.grid.width, plan.grid.height
+    document = {
+        "status": STATUS_WORDS.get(exit_code, "error"),
+        "message": result.message,
+        "solver": statistics.solver,
+        "split": statistics.split,
+        "objective": plan.objective,
+        "agents": len(plan.paths),
+        "makespan": plan.makespan if plan.paths else None,
+        "sum_of_costs": plan.sum_of_costs if plan.paths else None,
+        "makespan_lower_bound": statistics.makespan_lower_bound,
+        "sum_of_costs_lower_bound": statistics.sum_of_costs_lower_bound,
+        "proved_lower_bound": statistics.proved_lower_bound,
+        "optimal": statistics.optimal,
+        "certified_by": statistics.certified_by,
+        "runtime_s": statistics.runtime,
+        "first_plan_s": statistics.first_plan if plan.paths else None,
+        "stages": dict(zip(statistics.stage_names, statistics.stage_seconds)),
+        "paths": [[[cell % width, height - 1 - cell // width] for cell in path.cells]
+                  for path in plan.paths],
+    }
+    try:
+        with open(path, "w", encoding="ascii") as file:
+            json.dump(document, file)
+            file.write("\n")
+    except OSError as error:
+        raise InputError("%s: %s" % (path, error.strerror)) from error
+
+
+def at_least(least, kind):
+    def parse(text):
+        value = kind(text)
+        if not least <= value < float("inf"):
+            raise ValueError
+        return value
+
+    parse.__name__ = "number (>= %g)" % least
+    return parse
+
+
+def parse_arguments(arguments):
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--map", help="MovingAI .map (default: the map on the topic `map`)")
+    parser.add_argument("--scen", required=True, help="MovingAI .scen")
+    parser.add_argument("--agents", type=at_least(0, int), default=0, metavar="N",
+                        help="take the first N rows of the scenario; 0: all (0)")
+    parser.add_argument("--resolution", type=at_least(1e-6, float), default=1.0, metavar="M",
+                        help="side of a cell of --map in metres (1)")
+    options = parser.add_argument_group("planning options (default: the node's parameters)")
+    options.add_argument("--solver")
+    options.add_argument("--split")
+    options.add_argument("--objective", choices=("makespan", "sum_of_costs"))
+    options.add_argument("--solver-option", action="append", dest="solver_options",
+                         metavar="NAME=VALUE")
+    options.add_argument("--split-option", action="append", dest="split_options",
+                         metavar="NAME=VALUE")
+    options.add_argument("--suboptimality", type=float)
+    options.add_argument("--time-limit", type=float, metavar="SECONDS")
+    options.add_argument("--refine-time", type=float, metavar="SECONDS")
+    options.add_argument("--step-duration", type=float, metavar="SECONDS")
+    options.add_argument("--seed", type=at_least(0, int))
+    options.add_argument("--threads", type=at_least(0, int))
+    parser.add_argument("--server", default="split_mapf/plan_paths",
+                        help="name of the action (split_mapf/plan_paths)")
+    parser.add_argument("--wait", type=at_least(0, float), default=20.0, metavar="SECONDS",
+                        help="patience until the node, and the map, are there (20)")
+    parser.add_argument("--output", metavar="FILE", help="write the plan as JSON")
+    parser.add_argument("--quiet", action="store_true", help="no progress")
+    try:
+        return parser.parse_args(arguments)
+    except SystemExit as end:
+        # argparse says 2 for bad usage, which stands for "unsolvable" here.
+        raise SystemExit(1 if end.code else 0) from end
+
+
+def run(args):
+    client = find_server(args.server, args.wait)
+    grid = read_map(args.map, args.resolution) if args.map else wait_for_map(args.wait)
+    goal = make_goal(args, grid, read_scenario(args.scen, grid, args.agents))
+    begin = time.monotonic()
+    state, result = run_goal(client, goal, ProgressLine(args.quiet))
+    if result is None:
+        raise NoAnswer("the goal was lost")
+    # A goal that was recalled before the node had seen it has an empty result.
+    if state == GoalStatus.RECALLED:
+        result.outcome = PlanOutcome.CANCELLED
+    print_outcome(state, result, time.monotonic() - begin)
+    exit_code = EXIT_CODES.get(result.outcome, 1)
+    if args.output:
+        write_json(args.output, result, exit_code)
+    return exit_code
+
+
+def main():
+    args = parse_arguments(rospy.myargv()[1:])
+    rospy.init_node("plan_client", anonymous=True, disable_signals=True)
+    try:
+        return run(args)
+    except InputError as error:
+        print("plan_client: %s" % error, file=sys.stderr)
+        return 1
+    except NoAnswer as error:
+        print("plan_client: %s" % error, file=sys.stderr)
+        return 5
+    except KeyboardInterrupt:
+        return 4
+    finally:
+        rospy.signal_shutdown("done")
+
+
+if __name__ == "__main__":
+    sys.exit(main())
