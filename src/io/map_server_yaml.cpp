@@ -73,7 +73,8 @@ class YamlReader {
 
   YAML::Node required(const std::string& key, const std::string& expected) const {
     const YAML::Node node = root_[key];
-    if (!node) failAt(root_.Mark(), "read no key '" + key + "', expected it with " + expected);
+    if (!node)
+      failAt(root_.Mark(), "read no key " + quoted(key) + ", expected it with " + expected);
     return node;
   }
 
@@ -102,15 +103,16 @@ class YamlReader {
     const YAML::Node node = required("origin", "[x, y, yaw]");
     const std::string expected = "[x, y, yaw], three finite numbers";
     if (!node.IsSequence() || node.size() != 3) {
-      failAt(node.Mark(), "origin: read no list of three, expected " + expected);
+      failAt(markOf("origin"), "origin: read no list of three, expected " + expected);
     }
     double values[3] = {};
     for (std::size_t i = 0; i < 3; ++i) {
       const YAML::Node entry = node[i];
       const bool good = entry.IsScalar() && YAML::convert<double>::decode(entry, values[i]);
       if (!good || !std::isfinite(values[i])) {
-        const std::string read = entry.IsScalar() ? quoted(entry.Scalar()) : "no single value";
-        failAt(entry.Mark(), "origin: read " + read + ", expected " + expected);
+        std::string message = "origin: read ";
+        message += entry.IsScalar() ? quoted(entry.Scalar()) : "no single value";
+        failAt(entry.Mark(), message += ", expected " + expected);
       }
     }
     return {values[0], values[1], values[2]};

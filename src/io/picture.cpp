@@ -31,7 +31,8 @@ std::uint64_t pixelsAt(const Grid& grid, std::uint32_t cell_px) {
 std::uint32_t automaticCellSize(const Grid& grid) {
   const double longer = std::max(grid.width(), grid.height());
   const double mean = std::sqrt(static_cast<double>(grid.width()) * grid.height());
-  const auto cell_px = static_cast<std::uint32_t>(std::min(1000 / mean, 2000 / longer) + 0.5);
+  const auto cell_px =
+      static_cast<std::uint32_t>(std::lround(std::min(1000 / mean, 2000 / longer)));
   if (longer <= 1024) return std::clamp(cell_px, 4U, 64U);
   return pixelsAt(grid, 2) <= kMaxPixels ? 2 : 1;
 }

@@ -2,19 +2,30 @@
 
 #include <zlib.h>
 
-#include <algorithm>
-#include <array>
 #include <map>
 #include <set>
+#include <string_view>
 
 #include "io/file_bytes.h"
 #include "io/map_picture.h"
+#include "io/png_image_data.h"
 
 namespace split_mapf {
 namespace {
 
-const std::string kSignature("\x89PNG\r\n\x1a\n", 8);
+constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
 constexpr int kPalette = 3;
+
+// A tRNS chunk that makes the first grey level transparent.
+std::string transparencyChunk() {
+  const std::string checked("tRNS\0\0", 6);
+  auto checksum = static_cast<std::uint32_t>(
+      crc32(0, reinterpret_cast<const Bytef*>(checked.data()), static_cast<uInt>(checked.size())));
+  std::string chunk("\0\0\0\2", 4);
+  chunk += checked;
+  for (int i = 0; i < 4; ++i, checksum <<= 8U) chunk += static_cast<char>(checksum >> 24U);
+  return chunk;
+}
 
 std::uint32_t bigEndianAt(const std::string& bytes, std::size_t i) {
   std::uint32_t value = 0;
@@ -26,67 +37,15 @@ std::uint32_t bigEndianAt(const std::string& bytes, std::size_t i) {
 
 // Number of channels of a colour type; 0 for a combination that PNG does not have.
 std::size_t channelsOf(int colour_type, int bit_depth) {
-  static const std::map<int, std::pair<std::size_t, std::set<int>>> kKinds = {
+  static const std::map<int, std::pair<std::size_t, std::set<int>>> kinds = {
       {0, {1, {1, 2, 4, 8, 16}}},
       {2, {3, {8, 16}}},
       {kPalette, {1, {1, 2, 4, 8}}},
       {4, {2, {8, 16}}},
       {6, {4, {8, 16}}}};
-  const auto kind = kKinds.find(colour_type);
-  return kind == kKinds.end() || kind->second.second.count(bit_depth) == 0 ? 0 : kind->second.first;
+  const auto kind = kinds.find(colour_type);
+  return kind == kinds.end() || kind->second.second.count(bit_depth) == 0 ? 0 : kind->second.first;
 }
-
-// Decompresses image data piece by piece and keeps count of it; the pixels are left to GIL.
-class ImageDataCheck {
- public:
-  explicit ImageDataCheck(std::size_t row_bytes) : row_bytes_(row_bytes) { inflateInit(&stream_); }
-  ~ImageDataCheck() { inflateEnd(&stream_); }
-  ImageDataCheck(const ImageDataCheck&) = delete;
-  ImageDataCheck& operator=(const ImageDataCheck&) = delete;
-
-  /// What is wrong with the data, or nothing.
-  std::string run(std::string data, std::size_t expected) {
-    stream_.next_in = reinterpret_cast<Bytef*>(&data[0]);
-    stream_.avail_in = static_cast<uInt>(data.size());
-    int status = Z_OK;
-    while (status == Z_OK && bad_filter_ < 0 && bytes_ <= expected) {
-      stream_.next_out = block_.data();
-      stream_.avail_out = static_cast<uInt>(block_.size());
-      status = inflate(&stream_, Z_NO_FLUSH);
-      count(block_.size() - stream_.avail_out);
-    }
-    if (bytes_ > expected || (status == Z_STREAM_END && stream_.avail_in > 0)) {
-      return "read too much image data, expected " + std::to_string(expected) +
-             " bytes when decompressed";
-    }
-    if (bad_filter_ >= 0) {
-      return "read filter " + std::to_string(bad_filter_) + " in the image data, expected 0 to 4";
-    }
-    if (status != Z_OK && status != Z_STREAM_END && status != Z_BUF_ERROR) {
-      return "read image data that cannot be decompressed, expected zlib data";
-    }
-    if (status == Z_STREAM_END && bytes_ == expected) return "";
-    return "read image data that ends after " + std::to_string(bytes_) +
-           " bytes when decompressed, expected " + std::to_string(expected);
-  }
-
- private:
-  // Every row begins with the number of its filter.
-  void count(std::size_t produced) {
-    const std::size_t row = (bytes_ + row_bytes_ - 1) / row_bytes_;
-    for (std::size_t i = row * row_bytes_; i < bytes_ + produced; i += row_bytes_) {
-      const int filter = block_[i - bytes_];
-      if (filter > 4 && bad_filter_ < 0) bad_filter_ = filter;
-    }
-    bytes_ += produced;
-  }
-
-  z_stream stream_{};
-  std::size_t row_bytes_;
-  std::size_t bytes_ = 0;
-  int bad_filter_ = -1;
-  std::array<unsigned char, 1U << 16> block_{};
-};
 
 // Walks over the chunks of one PNG file.
 class PngChecker {
@@ -108,6 +67,7 @@ class PngChecker {
                      " more bytes, expected the end of the file after IEND");
     }
     requireImageData(position);
+    unpackGrey();
     return std::move(found_);
   }
 
@@ -120,7 +80,7 @@ class PngChecker {
                      std::to_string(position) + " on");
     }
     const std::uint32_t length = bigEndianAt(bytes_, position);
-    const std::string type = bytes_.substr(position + 4, 4);
+    std::string type = bytes_.substr(position + 4, 4);
     if (first && type != "IHDR") {
       failAtByte(path_, position + 4, "read chunk " + quoted(type) + ", expected 'IHDR'");
     }
@@ -149,11 +109,11 @@ class PngChecker {
     const bool ancillary = (static_cast<unsigned char>(type[0]) & 0x20U) != 0;
     if (type == "IHDR") {
       readHeader(position, length);
-    } else if (type == "tRNS") {
-      if (found_.has_alpha) return;
-      found_.has_alpha = true;
     } else if (type == "PLTE") {
-      has_palette_ = true;
+      if (found_.colour_type != kPalette) return;  // only a suggestion then
+      requirePalette(position, length);
+    } else if (type == "tRNS") {
+      requireTransparency(position, length);
     } else if (type == "IDAT") {
       if (image_data_.empty()) first_data_ = position;
       image_data_.append(bytes_, position + 8, length);
@@ -163,6 +123,38 @@ class PngChecker {
       failAtByte(path_, position + 4, "read chunk " + quoted(type) + ", expected one of PNG's own");
     }
     found_.essential_bytes.append(bytes_, position, 12 + std::size_t{length});
+  }
+
+  void requirePalette(std::size_t position, std::uint32_t length) {
+    const std::size_t most = std::size_t{1} << static_cast<unsigned>(found_.bit_depth);
+    const bool in_place = palette_entries_ == 0 && !found_.has_alpha && image_data_.empty();
+    if (!in_place || length % 3 != 0 || length == 0 || length / 3 > most) {
+      failAtByte(path_, position,
+                 "read a PLTE chunk of " + std::to_string(length) +
+                     " bytes, expected one, before image data, of 1 to " + std::to_string(most) +
+                     " colours of 3 bytes");
+    }
+    palette_entries_ = length / 3;
+  }
+
+  void requireTransparency(std::size_t position, std::uint32_t length) {
+    const bool in_place = !found_.has_alpha && image_data_.empty();
+    bool fits = found_.colour_type == kPalette && length > 0 && length <= palette_entries_;
+    if (found_.colour_type == 0 || found_.colour_type == 2) {
+      fits = length == 2 * channels_;
+      for (std::size_t i = position + 8; fits && i < position + 8 + length; i += 2) {
+        const std::uint32_t level = bigEndianAt(bytes_, i) >> 16U;
+        fits = level >> static_cast<unsigned>(found_.bit_depth) == 0;
+      }
+    }
+    if (!in_place || !fits) {
+      failAtByte(path_, position,
+                 "read a tRNS chunk of " + std::to_string(length) +
+                     " bytes, expected one, before image data, that fits colour "
+                     "type " +
+                     std::to_string(found_.colour_type));
+    }
+    found_.has_alpha = true;
   }
 
   void readHeader(std::size_t position, std::uint32_t length) {
@@ -203,15 +195,23 @@ class PngChecker {
   }
 
   void requireImageData(std::size_t end) {
-    if (found_.colour_type == kPalette && !has_palette_) {
+    if (found_.colour_type == kPalette && palette_entries_ == 0) {
       failAtByte(path_, end, "read no PLTE chunk, expected the palette");
     }
     if (image_data_.empty()) failAtByte(path_, end, "read no IDAT chunk, expected image data");
     const std::size_t bits = channels_ * static_cast<std::size_t>(found_.bit_depth) * found_.width;
     const std::size_t row_bytes = 1 + (bits + 7) / 8;
     const std::string fault =
-        ImageDataCheck(row_bytes).run(std::move(image_data_), row_bytes * found_.height);
+        faultOfImageData(std::move(image_data_), row_bytes, row_bytes * found_.height);
     if (!fault.empty()) failAtByte(path_, first_data_, fault);
+  }
+
+  // GIL reads beyond the row buffer where grey samples share a byte. With a transparent level
+  // named, libpng spreads them to whole bytes first; has_alpha stays false.
+  void unpackGrey() {
+    if (found_.colour_type != 0 || found_.bit_depth >= 8 || found_.has_alpha) return;
+    constexpr std::size_t kHeaderChunk = 25;
+    found_.essential_bytes.insert(kSignature.size() + kHeaderChunk, transparencyChunk());
   }
 
   const std::string& path_;
@@ -220,7 +220,7 @@ class PngChecker {
   std::size_t next_ = 0;
   std::size_t channels_ = 0;
   std::size_t first_data_ = 0;
-  bool has_palette_ = false;
+  std::size_t palette_entries_ = 0;
   std::string image_data_;
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 using Occupancy = std::vector<std::int8_t>;
 
-const std::string kKeys =
+const std::string yaml_keys =
     "resolution: 0.05\norigin: [-1.5, 2, 0.25]\nnegate: 0\noccupied_thresh: 0.65\n"
     "free_thresh: 0.196\n";
 
@@ -36,12 +36,12 @@ class MapServerTest : public test::FileTest {
     png.colour_type = static_cast<char>(colour_type);
     png.rows = rows;
     file("a.png", png.bytes());
-    return readMapServerMap(file("a.yaml", "image: a.png\nmode: " + mode + "\n" + kKeys));
+    return readMapServerMap(file("a.yaml", "image: a.png\nmode: " + mode + "\n" + yaml_keys));
   }
 };
 
 TEST_F(MapServerTest, ReadsTrinary) {
-  const OccupancyMap map = mapOf("image: a.pgm\n" + kKeys, "0 89 90 205 206 254 255", 7);
+  const OccupancyMap map = mapOf("image: a.pgm\n" + yaml_keys, "0 89 90 205 206 254 255", 7);
   EXPECT_EQ(map.occupancy, (Occupancy{100, 100, -1, -1, 0, 0, 0}));
   EXPECT_EQ(map.grid->width(), 7U);
   EXPECT_EQ(map.grid->size(), 3U);
@@ -53,14 +53,14 @@ TEST_F(MapServerTest, ReadsTrinary) {
 
 TEST_F(MapServerTest, KeepsTheTopRowOnTop) {
   file("a.pgm", "P2 2 2 255 0 255 255 255");
-  const OccupancyMap map = readMapServerMap(file("a.yaml", "image: a.pgm\n" + kKeys));
+  const OccupancyMap map = readMapServerMap(file("a.yaml", "image: a.pgm\n" + yaml_keys));
   EXPECT_EQ(map.occupancy, (Occupancy{100, 0, 0, 0}));
   EXPECT_FALSE(map.grid->isFree({0, 0}));
   EXPECT_TRUE(map.grid->isFree({0, 1}));
 }
 
 TEST_F(MapServerTest, NegatesBrightness) {
-  std::string keys = kKeys;
+  std::string keys = yaml_keys;
   keys.replace(keys.find("negate: 0"), 9, "negate: 1");
   EXPECT_EQ(mapOf("image: a.pgm\n" + keys, "0 50 255", 3).occupancy, (Occupancy{0, -1, 100}));
   EXPECT_EQ(mapOf("image: a.pgm\nmode: raw\n" + keys, "255 155 100", 3).occupancy,
@@ -70,19 +70,19 @@ TEST_F(MapServerTest, NegatesBrightness) {
 TEST_F(MapServerTest, ReadsScale) {
   // 89.25 is the brightness of occupied_thresh, 205.02 that of free_thresh.
   const OccupancyMap map =
-      mapOf("image: a.pgm\nmode: scale\n" + kKeys, "0 89 90 147 205 206 255", 7);
+      mapOf("image: a.pgm\nmode: scale\n" + yaml_keys, "0 89 90 147 205 206 255", 7);
   EXPECT_EQ(map.occupancy, (Occupancy{100, 100, 98, 50, 1, 0, 0}));
   EXPECT_EQ(map.grid->size(), 4U);  // below 65 %
 }
 
 TEST_F(MapServerTest, ReadsRaw) {
-  const OccupancyMap map = mapOf("image: a.pgm\nmode: raw\n" + kKeys, "0 64 65 100 101 255", 6);
+  const OccupancyMap map = mapOf("image: a.pgm\nmode: raw\n" + yaml_keys, "0 64 65 100 101 255", 6);
   EXPECT_EQ(map.occupancy, (Occupancy{0, 64, 65, 100, -1, -1}));
   EXPECT_EQ(map.grid->size(), 2U);
 }
 
 TEST_F(MapServerTest, AppliesTheRule) {
-  const std::string yaml = "image: a.pgm\nmode: raw\n" + kKeys;
+  const std::string yaml = "image: a.pgm\nmode: raw\n" + yaml_keys;
   const std::string samples = "0 29 30 100 255";
   EXPECT_EQ(mapOf(yaml, samples, 5, {30, false}).grid->size(), 2U);
   EXPECT_EQ(mapOf(yaml, samples, 5, {100, false}).grid->size(), 3U);
@@ -113,25 +113,25 @@ TEST_F(MapServerTest, AveragesColours) {
 TEST_F(MapServerTest, FindsThePictureBesideTheYamlOrByAnAbsolutePath) {
   std::filesystem::create_directory(pathOf("maps"));
   file("maps/b.pgm", "P2 1 1 255 255");
-  EXPECT_EQ(readMapServerMap(file("maps/b.yaml", "image: b.pgm\n" + kKeys)).grid->size(), 1U);
+  EXPECT_EQ(readMapServerMap(file("maps/b.yaml", "image: b.pgm\n" + yaml_keys)).grid->size(), 1U);
   const std::string absolute = "image: " + pathOf("maps/b.pgm") + "\n";
-  EXPECT_EQ(readMapServerMap(file("c.yaml", absolute + kKeys)).grid->size(), 1U);
-  EXPECT_EQ(errorOf([&] { readMapServerMap(file("d.yaml", "image: e.pgm\n" + kKeys)); }),
+  EXPECT_EQ(readMapServerMap(file("c.yaml", absolute + yaml_keys)).grid->size(), 1U);
+  EXPECT_EQ(errorOf([&] { readMapServerMap(file("d.yaml", "image: e.pgm\n" + yaml_keys)); }),
             "cannot open e.pgm: No such file or directory");
 }
 
 TEST_F(MapServerTest, NamesAPictureOfAnotherKind) {
   file("a.bmp", "BM123456789");
   file("empty.pgm", "");
-  EXPECT_EQ(errorOf([&] { readMapServerMap(file("a.yaml", "image: a.bmp\n" + kKeys)); }),
+  EXPECT_EQ(errorOf([&] { readMapServerMap(file("a.yaml", "image: a.bmp\n" + yaml_keys)); }),
             "a.bmp: byte 0: read 'BM123456', expected a PGM picture (P2 or P5) or a PNG picture");
-  EXPECT_EQ(errorOf([&] { readMapServerMap(file("a.yaml", "image: empty.pgm\n" + kKeys)); }),
+  EXPECT_EQ(errorOf([&] { readMapServerMap(file("a.yaml", "image: empty.pgm\n" + yaml_keys)); }),
             "empty.pgm: byte 0: read an empty file, expected a PGM picture (P2 or P5) or a PNG "
             "picture");
 }
 
 TEST_F(MapServerTest, NamesTheFaultOfThePicture) {
-  EXPECT_EQ(errorOf([&] { mapOf("image: a.pgm\n" + kKeys, "0 x", 2); }),
+  EXPECT_EQ(errorOf([&] { mapOf("image: a.pgm\n" + yaml_keys, "0 x", 2); }),
             "a.pgm:1: read 'x', expected sample 2 of 2, 0 to 255");
 }
 
@@ -145,19 +145,19 @@ TEST_F(MapServerTest, NamesMalformedYaml) {
 }
 
 TEST_F(MapServerTest, NamesMissingAndRepeatedKeys) {
-  EXPECT_EQ(errorOfYaml(kKeys), "a.yaml:1: read no key 'image', expected it with a path");
+  EXPECT_EQ(errorOfYaml(yaml_keys), "a.yaml:1: read no key 'image', expected it with a path");
   EXPECT_EQ(errorOfYaml("image: a.pgm\nresolution: 1\norigin: [0, 0, 0]\n"),
             "a.yaml:1: read no key 'negate', expected it with 0 or 1");
   EXPECT_EQ(errorOfYaml("image: a.pgm\nresolution: 1\n"),
             "a.yaml:1: read no key 'origin', expected it with [x, y, yaw]");
-  EXPECT_EQ(errorOfYaml("image: a.pgm\n" + kKeys + "image: b.pgm\n"),
+  EXPECT_EQ(errorOfYaml("image: a.pgm\n" + yaml_keys + "image: b.pgm\n"),
             "a.yaml:7: read the key 'image' a second time, expected it once");
 }
 
 TEST_F(MapServerTest, NamesBadValues) {
   // Replaces the value of one key, on the line that it stands on.
   const auto with = [&](const std::string& key, const std::string& value) {
-    std::string yaml = "image: a.pgm\n" + kKeys + "mode: trinary\n";
+    std::string yaml = "image: a.pgm\n" + yaml_keys + "mode: trinary\n";
     const std::size_t begin = yaml.find(key + ":") + key.size() + 1;
     return errorOfYaml(yaml.replace(begin, yaml.find('\n', begin) - begin, " " + value));
   };
@@ -186,7 +186,7 @@ TEST_F(MapServerTest, NamesBadValues) {
 }
 
 TEST_F(MapServerTest, LeavesOtherKeysAlone) {
-  EXPECT_EQ(mapOf("image: a.pgm\nfloor: 3\n" + kKeys, "255", 1).grid->size(), 1U);
+  EXPECT_EQ(mapOf("image: a.pgm\nfloor: 3\n" + yaml_keys, "255", 1).grid->size(), 1U);
 }
 
 TEST_F(MapServerTest, ReadsBenchmarks) {

@@ -15,7 +15,7 @@ class MovingAiMapTest : public test::FileTest {
   }
 };
 
-const std::string kHead = "type octile\nheight 2\nwidth 3\nmap\n";
+const std::string map_head = "type octile\nheight 2\nwidth 3\nmap\n";
 
 TEST_F(MovingAiMapTest, ReadsEverySymbol) {
   const auto grid =
@@ -31,11 +31,11 @@ TEST_F(MovingAiMapTest, ReadsEverySymbol) {
 TEST_F(MovingAiMapTest, TakesCarriageReturnsBlankEndAndMissingLastLineFeed) {
   const std::string windows = "type octile\r\nheight 1\r\nwidth 2\r\nmap\r\n.@\r\n\r\n  \r\n";
   EXPECT_EQ(readMovingAiMap(file("a.map", windows))->size(), 1U);
-  EXPECT_EQ(readMovingAiMap(file("b.map", kHead + "...\n@@."))->size(), 4U);
+  EXPECT_EQ(readMovingAiMap(file("b.map", map_head + "...\n@@."))->size(), 4U);
 }
 
 TEST_F(MovingAiMapTest, RowsCountFromTheTop) {
-  const auto grid = readMovingAiMap(file("a.map", kHead + "..@\n@@@\n"));
+  const auto grid = readMovingAiMap(file("a.map", map_head + "..@\n@@@\n"));
   EXPECT_TRUE(grid->isFree({1, 0}));
   EXPECT_FALSE(grid->isFree({2, 0}));
   EXPECT_FALSE(grid->isFree({0, 1}));
@@ -62,18 +62,19 @@ TEST_F(MovingAiMapTest, NamesTheFaultyHeaderLine) {
 }
 
 TEST_F(MovingAiMapTest, NamesTheFaultyRow) {
-  EXPECT_EQ(errorOfMap(kHead + "...\n..\n"),
+  EXPECT_EQ(errorOfMap(map_head + "...\n..\n"),
             "a.map:6: read 2 characters: '..', expected 3 characters in row 2 of 2, the map's "
             "width");
-  EXPECT_EQ(errorOfMap(kHead + "....\n...\n"),
+  EXPECT_EQ(errorOfMap(map_head + "....\n...\n"),
             "a.map:5: read 4 characters: '....', expected 3 characters in row 1 of 2, the map's "
             "width");
-  EXPECT_EQ(errorOfMap(kHead + "...\n"), "a.map:6: read the end of the file, expected row 2 of 2");
-  EXPECT_EQ(errorOfMap(kHead + "...\n.x.\n"),
+  EXPECT_EQ(errorOfMap(map_head + "...\n"),
+            "a.map:6: read the end of the file, expected row 2 of 2");
+  EXPECT_EQ(errorOfMap(map_head + "...\n.x.\n"),
             "a.map:6: read 'x' in column 2, expected one of '.GS' (free) or '@OTW' (blocked)");
-  EXPECT_EQ(errorOfMap(kHead + std::string("..\0\n", 4)),
+  EXPECT_EQ(errorOfMap(map_head + std::string("..\0\n", 4)),
             "a.map:5: read '\\x00' in column 3, expected one of '.GS' (free) or '@OTW' (blocked)");
-  EXPECT_EQ(errorOfMap(kHead + "...\n...\n...\n"),
+  EXPECT_EQ(errorOfMap(map_head + "...\n...\n...\n"),
             "a.map:7: read '...', expected the end of the file after 2 rows");
 }
 
@@ -84,9 +85,9 @@ TEST_F(MovingAiMapTest, NamesAFileThatCannotBeRead) {
 }
 
 TEST_F(MovingAiMapTest, WritesWhatItReads) {
-  const auto grid = readMovingAiMap(file("a.map", kHead + "..@\nGTS\n"));
+  const auto grid = readMovingAiMap(file("a.map", map_head + "..@\nGTS\n"));
   writeMovingAiMap(pathOf("b.map"), *grid);
-  EXPECT_EQ(contentOf(pathOf("b.map")), kHead + "..@\n.@.\n");
+  EXPECT_EQ(contentOf(pathOf("b.map")), map_head + "..@\n.@.\n");
   EXPECT_EQ(errorOf([&] { writeMovingAiMap(pathOf("no/b.map"), *grid); }),
             "cannot write no/b.map: No such file or directory");
 }

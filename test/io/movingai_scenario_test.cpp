@@ -8,104 +8,106 @@ namespace split_mapf {
 namespace {
 
 // Three by two, with the cell (2,0) blocked.
-const Grid kGrid(3, 2, {true, true, false, true, true, true});
-const std::string kVersion = "version 1\n";
-const std::string kRow = "0\ta.map\t3\t2\t0\t0\t2\t1\t3.4142\n";
+const Grid small_grid(3, 2, {true, true, false, true, true, true});
+const std::string version_line = "version 1\n";
+const std::string good_row = "0\ta.map\t3\t2\t0\t0\t2\t1\t3.4142\n";
 
 class ScenarioTest : public test::FileTest {
  protected:
   std::string errorOfScenario(const std::string& text,
                               std::optional<std::uint32_t> agents = std::nullopt) const {
     const std::string path = file("a.scen", text);
-    return errorOf([&] { readMovingAiScenario(path, kGrid, agents); });
+    return errorOf([&] { readMovingAiScenario(path, small_grid, agents); });
   }
 };
 
 TEST_F(ScenarioTest, ReadsAllRows) {
   const std::string path =
-      file("a.scen", kVersion + kRow + "1\tother.map\t3\t2\t1\t0\t0\t1\t2\n\n");
-  const Scenario scenario = readMovingAiScenario(path, kGrid);
+      file("a.scen", version_line + good_row + "1\tother.map\t3\t2\t1\t0\t0\t1\t2\n\n");
+  const Scenario scenario = readMovingAiScenario(path, small_grid);
   EXPECT_EQ(scenario.starts, (std::vector<Cell>{{0, 0}, {1, 0}}));
   EXPECT_EQ(scenario.goals, (std::vector<Cell>{{2, 1}, {0, 1}}));
 }
 
 TEST_F(ScenarioTest, ReadsTheFirstRowsAndNoMore) {
-  const std::string path = file("a.scen", kVersion + kRow + "this row is never looked at\n");
-  EXPECT_EQ(readMovingAiScenario(path, kGrid, 1).starts.size(), 1U);
+  const std::string path =
+      file("a.scen", version_line + good_row + "this row is never looked at\n");
+  EXPECT_EQ(readMovingAiScenario(path, small_grid, 1).starts.size(), 1U);
 }
 
 TEST_F(ScenarioTest, TakesCarriageReturnsBlanksAndVersionWithPoint) {
   const std::string path = file("a.scen", "version 1.0\r\n0 a.map 3 2 0 0 2 1 3\r\n");
-  EXPECT_EQ(readMovingAiScenario(path, kGrid).goals, (std::vector<Cell>{{2, 1}}));
+  EXPECT_EQ(readMovingAiScenario(path, small_grid).goals, (std::vector<Cell>{{2, 1}}));
 }
 
 TEST_F(ScenarioTest, TakesAMapNameWithBlanks) {
-  const std::string path = file("a.scen", kVersion + "0\tmy own.map\t3\t2\t0\t0\t2\t1\t3\n");
-  EXPECT_EQ(readMovingAiScenario(path, kGrid).starts.size(), 1U);
+  const std::string path = file("a.scen", version_line + "0\tmy own.map\t3\t2\t0\t0\t2\t1\t3\n");
+  EXPECT_EQ(readMovingAiScenario(path, small_grid).starts.size(), 1U);
 }
 
 TEST_F(ScenarioTest, NeedsTheVersion) {
   EXPECT_EQ(errorOfScenario(""), "a.scen:1: read the end of the file, expected 'version 1'");
-  EXPECT_EQ(errorOfScenario(kRow),
+  EXPECT_EQ(errorOfScenario(good_row),
             "a.scen:1: read '0\\x09a.map\\x093\\x092\\x090\\x090\\x092\\x091\\x093.4142', expected "
             "'version 1'");
   EXPECT_EQ(errorOfScenario("version 2\n"), "a.scen:1: read 'version 2', expected 'version 1'");
 }
 
 TEST_F(ScenarioTest, NeedsEnoughRows) {
-  EXPECT_EQ(errorOfScenario(kVersion + kRow, 2),
+  EXPECT_EQ(errorOfScenario(version_line + good_row, 2),
             "a.scen:3: read the end of the file after 1 robot, expected 2 robots");
-  EXPECT_EQ(errorOfScenario(kVersion + "\n", 2),
+  EXPECT_EQ(errorOfScenario(version_line + "\n", 2),
             "a.scen:2: read the end of the file after 0 robots, expected 2 robots");
-  EXPECT_EQ(errorOfScenario(kVersion),
+  EXPECT_EQ(errorOfScenario(version_line),
             "a.scen:2: read the end of the file after 0 robots, expected at least one");
-  EXPECT_EQ(errorOfScenario(kVersion + kRow, 0), "0 robots asked of a.scen, expected 1 or more");
+  EXPECT_EQ(errorOfScenario(version_line + good_row, 0),
+            "0 robots asked of a.scen, expected 1 or more");
 }
 
 TEST_F(ScenarioTest, NeedsWellFormedRows) {
-  EXPECT_EQ(errorOfScenario(kVersion + "0\ta.map\t3\t2\t0\t0\t2\t1\n"),
+  EXPECT_EQ(errorOfScenario(version_line + "0\ta.map\t3\t2\t0\t0\t2\t1\n"),
             "a.scen:2: read 8 columns: '0\\x09a.map\\x093\\x092\\x090\\x090\\x092\\x091', expected "
             "9 columns: bucket, map, width, height, start x, start y, goal x, goal y, length");
-  EXPECT_EQ(errorOfScenario(kVersion + "\n" + kRow),
+  EXPECT_EQ(errorOfScenario(version_line + "\n" + good_row),
             "a.scen:2: read 0 columns: '', expected 9 columns: bucket, map, width, height, start "
             "x, start y, goal x, goal y, length");
-  EXPECT_EQ(errorOfScenario(kVersion + "b\ta.map\t3\t2\t0\t0\t2\t1\t3\n"),
+  EXPECT_EQ(errorOfScenario(version_line + "b\ta.map\t3\t2\t0\t0\t2\t1\t3\n"),
             "a.scen:2: read 'b', expected an integer as bucket");
-  EXPECT_EQ(errorOfScenario(kVersion + "0\ta.map\t3\t2\t0\t0.5\t2\t1\t3\n"),
+  EXPECT_EQ(errorOfScenario(version_line + "0\ta.map\t3\t2\t0\t0.5\t2\t1\t3\n"),
             "a.scen:2: read '0.5', expected an integer as robot 0: start y");
-  EXPECT_EQ(errorOfScenario(kVersion + "0\ta.map\t3\t2\t0\t0\t2\t\t3\n"),
+  EXPECT_EQ(errorOfScenario(version_line + "0\ta.map\t3\t2\t0\t0\t2\t\t3\n"),
             "a.scen:2: read '', expected an integer as robot 0: goal y");
-  EXPECT_EQ(errorOfScenario(kVersion + "0\ta.map\t3\t2\t0\t0\t2\t1\tlong\n"),
+  EXPECT_EQ(errorOfScenario(version_line + "0\ta.map\t3\t2\t0\t0\t2\t1\tlong\n"),
             "a.scen:2: read 'long', expected a number as length");
 }
 
 TEST_F(ScenarioTest, NeedsTheSizeOfTheMap) {
-  EXPECT_EQ(errorOfScenario(kVersion + kRow + "0\ta.map\t3\t3\t0\t0\t2\t1\t3\n"),
+  EXPECT_EQ(errorOfScenario(version_line + good_row + "0\ta.map\t3\t3\t0\t0\t2\t1\t3\n"),
             "a.scen:3: read a map of 3x3, expected the map's own size, 3x2");
 }
 
 TEST_F(ScenarioTest, NamesRobotAndCellAtFault) {
-  EXPECT_EQ(errorOfScenario(kVersion + kRow + "0\ta.map\t3\t2\t2\t0\t2\t1\t3\n"),
+  EXPECT_EQ(errorOfScenario(version_line + good_row + "0\ta.map\t3\t2\t2\t0\t2\t1\t3\n"),
             "a.scen:3: robot 1: start (2,0) is blocked, expected a free cell");
-  EXPECT_EQ(errorOfScenario(kVersion + "0\ta.map\t3\t2\t0\t0\t2\t0\t3\n"),
+  EXPECT_EQ(errorOfScenario(version_line + "0\ta.map\t3\t2\t0\t0\t2\t0\t3\n"),
             "a.scen:2: robot 0: goal (2,0) is blocked, expected a free cell");
   EXPECT_EQ(
-      errorOfScenario(kVersion + "0\ta.map\t3\t2\t3\t0\t2\t1\t3\n"),
+      errorOfScenario(version_line + "0\ta.map\t3\t2\t3\t0\t2\t1\t3\n"),
       "a.scen:2: robot 0: start (3,0) is outside the map, expected a free cell of the 3x2 map");
   EXPECT_EQ(
-      errorOfScenario(kVersion + "0\ta.map\t3\t2\t0\t0\t-1\t1\t3\n"),
+      errorOfScenario(version_line + "0\ta.map\t3\t2\t0\t0\t-1\t1\t3\n"),
       "a.scen:2: robot 0: goal (-1,1) is outside the map, expected a free cell of the 3x2 map");
-  EXPECT_EQ(errorOfScenario(kVersion + "0\ta.map\t3\t2\t4294967296\t0\t2\t1\t3\n"),
+  EXPECT_EQ(errorOfScenario(version_line + "0\ta.map\t3\t2\t4294967296\t0\t2\t1\t3\n"),
             "a.scen:2: robot 0: start (4294967296,0) is outside the map, expected a free cell of "
             "the 3x2 map");
 }
 
 TEST_F(ScenarioTest, WritesWhatItReads) {
   const Scenario scenario{{{0, 0}, {1, 0}}, {{2, 1}, {1, 0}}};
-  writeMovingAiScenario(pathOf("b.scen"), "a.map", kGrid, scenario);
+  writeMovingAiScenario(pathOf("b.scen"), "a.map", small_grid, scenario);
   EXPECT_EQ(contentOf(pathOf("b.scen")),
             "version 1\n0\ta.map\t3\t2\t0\t0\t2\t1\t3\n0\ta.map\t3\t2\t1\t0\t1\t0\t0\n");
-  const Scenario again = readMovingAiScenario(pathOf("b.scen"), kGrid);
+  const Scenario again = readMovingAiScenario(pathOf("b.scen"), small_grid);
   EXPECT_EQ(again.starts, scenario.starts);
   EXPECT_EQ(again.goals, scenario.goals);
 }
@@ -119,7 +121,7 @@ TEST_F(ScenarioTest, WritesAnUnreachableGoalAsMinusOne) {
 
 TEST_F(ScenarioTest, RefusesToWriteWhatCannotBeRead) {
   const auto write = [&](const Scenario& scenario) {
-    return errorOf([&] { writeMovingAiScenario(pathOf("b.scen"), "a.map", kGrid, scenario); });
+    return errorOf([&] { writeMovingAiScenario(pathOf("b.scen"), "a.map", small_grid, scenario); });
   };
   EXPECT_EQ(write({{{2, 0}}, {{0, 0}}}),
             "robot 0: start (2,0) is blocked, expected a free cell of the 3x2 grid");

@@ -14,7 +14,7 @@
 namespace split_mapf {
 namespace {
 
-const Grid kGrid(4, 2, {true, true, true, true, true, false, true, true});
+const Grid small_grid(4, 2, {true, true, true, true, true, false, true, true});
 
 int brightnessOf(Colour c) { return (c.red + c.green + c.blue) / 3; }
 
@@ -27,7 +27,7 @@ bool alike(Colour a, Colour b, int tolerance) {
 struct Looker {
   const Picture& picture;
   std::uint32_t cell_px;
-  std::uint32_t margin_px = (picture.width_px - kGrid.width() * cell_px) / 2;
+  std::uint32_t margin_px = (picture.width_px - small_grid.width() * cell_px) / 2;
 
   // The pixel at this place of the map [cells].
   Colour at(double x, double y) const {
@@ -37,7 +37,7 @@ struct Looker {
 };
 
 TEST(PictureTest, ShowsFreeCellsLightAndObstaclesDark) {
-  const Picture picture = drawPlan(kGrid, {});
+  const Picture picture = drawPlan(small_grid, {});
   EXPECT_EQ(picture.pixels.size(), std::size_t{picture.width_px} * picture.height_px);
   const Looker look{picture, 64};
   EXPECT_GT(brightnessOf(look.at(0.5, 0.5)), 240);
@@ -50,7 +50,7 @@ TEST(PictureTest, DrawsPathStartAndGoal) {
   PictureOptions options;
   options.cell_px = 50;
   options.opacity = 1;
-  const Picture picture = drawPlan(kGrid, {{{0, 0}, {1, 0}, {2, 0}, {2, 0}, {3, 0}}}, options);
+  const Picture picture = drawPlan(small_grid, {{{0, 0}, {1, 0}, {2, 0}, {2, 0}, {3, 0}}}, options);
   const Looker look{picture, 50};
   EXPECT_EQ(look.at(1.5, 0.5), robotColour(0));           // the way
   EXPECT_EQ(look.at(0.5, 0.5), (Colour{255, 255, 255}));  // the start is hollow
@@ -62,7 +62,7 @@ TEST(PictureTest, DrawsPathStartAndGoal) {
 TEST(PictureTest, ARobotThatStaysHasBothMarks) {
   PictureOptions options;
   options.cell_px = 60;
-  const Picture picture = drawPlan(kGrid, {{{0, 1}, {0, 1}}}, options);
+  const Picture picture = drawPlan(small_grid, {{{0, 1}, {0, 1}}}, options);
   const Looker look{picture, 60};
   EXPECT_EQ(look.at(0.5, 1.5), robotColour(0));
   EXPECT_EQ(look.at(0.5 - 0.31, 1.5), robotColour(0));
@@ -71,7 +71,7 @@ TEST(PictureTest, ARobotThatStaysHasBothMarks) {
 TEST(PictureTest, DrawsAnInstanceWithFaintLines) {
   PictureOptions options;
   options.cell_px = 50;
-  const Picture picture = drawInstance(kGrid, {{0, 0}}, {{3, 0}}, options);
+  const Picture picture = drawInstance(small_grid, {{0, 0}}, {{3, 0}}, options);
   const Looker look{picture, 50};
   EXPECT_EQ(look.at(3.5, 0.5), robotColour(0));
   EXPECT_EQ(look.at(0.5, 0.5), (Colour{255, 255, 255}));
@@ -81,31 +81,31 @@ TEST(PictureTest, DrawsAnInstanceWithFaintLines) {
 }
 
 TEST(PictureTest, ChoosesTheScale) {
-  const auto cellOfSquare = [](std::uint32_t side) {
+  const auto cell_of_square = [](std::uint32_t side) {
     const Grid grid(side, side, std::vector<bool>(std::size_t{side} * side, true));
     return drawPlan(grid, {}).width_px / side;
   };
   EXPECT_NEAR(drawPlan(Grid(32, 32, std::vector<bool>(1024, true)), {}).width_px, 1000, 30);
-  EXPECT_EQ(cellOfSquare(500), 4U);
-  EXPECT_EQ(cellOfSquare(1100), 2U);
+  EXPECT_EQ(cell_of_square(500), 4U);
+  EXPECT_EQ(cell_of_square(1100), 2U);
 }
 
 TEST(PictureTest, DrawsGridLinesWhereTheyFit) {
   PictureOptions options;
   options.cell_px = 12;
-  const auto coloursOf = [&] {
-    const Picture picture = drawPlan(kGrid, {}, options);
+  const auto count_light = [&] {
+    const Picture picture = drawPlan(small_grid, {}, options);
     int light = 0;
     for (const Colour colour : picture.pixels) light += brightnessOf(colour) > 240 ? 1 : 0;
     return light;
   };
   const int cells = 7 * 12 * 12;
-  EXPECT_EQ(coloursOf(), cells - 12 * (4 + 3) + 2);  // four upright, three level, two crossings
+  EXPECT_EQ(count_light(), cells - 12 * (4 + 3) + 2);  // four upright, three level, two crossings
   options.grid_lines = false;
-  EXPECT_EQ(coloursOf(), cells);
+  EXPECT_EQ(count_light(), cells);
   options.grid_lines = true;
   options.cell_px = 11;
-  EXPECT_EQ(coloursOf(), 7 * 11 * 11);
+  EXPECT_EQ(count_light(), 7 * 11 * 11);
 }
 
 TEST(PictureTest, ManyRobotsHaveDistinctColours) {
@@ -133,17 +133,17 @@ class PictureFileTest : public test::FileTest {};
 
 TEST_F(PictureFileTest, NamesRobotAndStepOutsideTheMap) {
   EXPECT_EQ(errorOf([] {
-              drawPlan(kGrid, {{{0, 0}}, {{3, 0}, {4, 0}}});
+              drawPlan(small_grid, {{{0, 0}}, {{3, 0}, {4, 0}}});
             }),
             "robot 1: at step 1 the cell (4,0) is outside the 4x2 map that is to be drawn");
-  EXPECT_EQ(errorOf([] { drawPlan(kGrid, {{}}); }),
+  EXPECT_EQ(errorOf([] { drawPlan(small_grid, {{}}); }),
             "robot 0: its path is empty, expected its start");
   EXPECT_EQ(errorOf([] {
-              drawInstance(kGrid, {{0, 0}}, {{0, -1}});
+              drawInstance(small_grid, {{0, 0}}, {{0, -1}});
             }),
             "robot 0: the goal (0,-1) is outside the 4x2 map that is to be drawn");
   EXPECT_EQ(errorOf([] {
-              drawInstance(kGrid, {{0, 0}}, {});
+              drawInstance(small_grid, {{0, 0}}, {});
             }),
             "1 starts and 0 goals, expected as many");
 }
@@ -151,14 +151,14 @@ TEST_F(PictureFileTest, NamesRobotAndStepOutsideTheMap) {
 TEST_F(PictureFileTest, NamesBadOptions) {
   PictureOptions options;
   options.cell_px = 257;
-  EXPECT_EQ(errorOf([&] { drawPlan(kGrid, {}, options); }),
+  EXPECT_EQ(errorOf([&] { drawPlan(small_grid, {}, options); }),
             "a cell of 257 pixels, expected 1 to 256");
   options = {};
   options.opacity = 1.5;
-  EXPECT_THROW(drawPlan(kGrid, {}, options), OptionError);
+  EXPECT_THROW(drawPlan(small_grid, {}, options), OptionError);
   options = {};
   options.line_width_cells = -1;
-  EXPECT_THROW(drawPlan(kGrid, {}, options), OptionError);
+  EXPECT_THROW(drawPlan(small_grid, {}, options), OptionError);
   options = {};
   options.cell_px = 256;
   const Grid large(1000, 1000, std::vector<bool>(1000000, true));
@@ -168,7 +168,7 @@ TEST_F(PictureFileTest, NamesBadOptions) {
 }
 
 TEST_F(PictureFileTest, WritesAPngThatReadsBack) {
-  const Picture picture = drawPlan(kGrid, {{{0, 0}, {1, 0}}});
+  const Picture picture = drawPlan(small_grid, {{{0, 0}, {1, 0}}});
   writePng(pathOf("a.png"), picture);
   const MapPicture again = parsePng("a.png", contentOf(pathOf("a.png")));
   ASSERT_EQ(again.width, picture.width_px);

@@ -40,7 +40,7 @@ TEST_F(PlanJsonReadTest, NamesTheLineOfMalformedJson) {
   EXPECT_EQ(start("{\"paths\": []}\n\nmore"), "a.json:3: read malformed JSON, expected a plan");
   EXPECT_EQ(start("{\"paths\": [],\n \"message\": \"\xff\"}"),
             "a.json:2: read malformed JSON, expected a plan");
-  EXPECT_NE(errorOfJson("{\n\"paths\": ]").find("]"), std::string::npos);
+  EXPECT_NE(errorOfJson("{\n\"paths\": ]").find(']'), std::string::npos);
 }
 
 TEST_F(PlanJsonReadTest, NamesMissingOrRepeatedPaths) {

@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-const Grid kGrid(3, 2, {true, true, false, true, true, true});
+const Grid small_grid(3, 2, {true, true, false, true, true, true});
 
 PlanReport solvedReport() {
   PlanReport report;
@@ -42,7 +42,7 @@ PlanReport solvedReport() {
 
 std::string written(const PlanReport& report) {
   std::ostringstream out;
-  writePlanJson(out, kGrid, report);
+  writePlanJson(out, small_grid, report);
   return out.str();
 }
 
@@ -147,21 +147,21 @@ TEST(PlanJsonWriteTest, EscapesText) {
 class PlanJsonFileTest : public test::FileTest {};
 
 TEST_F(PlanJsonFileTest, WritesAFile) {
-  writePlanJson(pathOf("a.json"), kGrid, solvedReport());
+  writePlanJson(pathOf("a.json"), small_grid, solvedReport());
   EXPECT_EQ(contentOf(pathOf("a.json")), written(solvedReport()));
-  EXPECT_EQ(errorOf([&] { writePlanJson(pathOf("no/a.json"), kGrid, solvedReport()); }),
+  EXPECT_EQ(errorOf([&] { writePlanJson(pathOf("no/a.json"), small_grid, solvedReport()); }),
             "cannot write no/a.json: No such file or directory");
 }
 
 TEST_F(PlanJsonFileTest, ReadsWhatItWrites) {
   const PlanReport report = solvedReport();
-  writePlanJson(pathOf("a.json"), kGrid, report);
-  EXPECT_EQ(readPlanJson(pathOf("a.json")), cellPathsOf(kGrid, *report.plan));
+  writePlanJson(pathOf("a.json"), small_grid, report);
+  EXPECT_EQ(readPlanJson(pathOf("a.json")), cellPathsOf(small_grid, *report.plan));
 }
 
 TEST_F(PlanJsonFileTest, SaysWhenTheDiskIsFull) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
-  EXPECT_EQ(errorOf([] { writePlanJson("/dev/full", kGrid, solvedReport()); }),
+  EXPECT_EQ(errorOf([] { writePlanJson("/dev/full", small_grid, solvedReport()); }),
             "cannot write /dev/full: No space left on device");
 }
 

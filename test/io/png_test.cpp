@@ -177,6 +177,30 @@ TEST_F(PngErrorTest, NamesChunksThatAreMissingOrStrange) {
             "a.png: byte 67: read no PLTE chunk, expected the palette");
 }
 
+TEST_F(PngErrorTest, NamesBadPalettesAndTransparency) {
+  const auto with = [&](int bit_depth, int colour_type, const std::string& extra) {
+    PngBuilder png = builder(1, 1, bit_depth, colour_type, raw("\0\0"));
+    png.extra = extra;
+    return errorOfPng(png.bytes());
+  };
+  const std::string palette = pngChunk("PLTE", "abcdef");
+  EXPECT_EQ(with(1, 3, palette + pngChunk("tRNS", "a")), "");
+  EXPECT_EQ(with(1, 3, pngChunk("PLTE", "abcd")),
+            "a.png: byte 33: read a PLTE chunk of 4 bytes, expected one, before image data, of 1 "
+            "to 2 colours of 3 bytes");
+  EXPECT_NE(with(1, 3, pngChunk("PLTE", "abcdefghi")), "");
+  EXPECT_NE(with(1, 3, pngChunk("PLTE", "")), "");
+  EXPECT_NE(with(1, 3, palette + palette), "");
+  EXPECT_EQ(with(1, 3, palette + pngChunk("tRNS", "abc")),
+            "a.png: byte 51: read a tRNS chunk of 3 bytes, expected one, before image data, that "
+            "fits colour type 3");
+  EXPECT_NE(with(1, 3, pngChunk("tRNS", "a") + palette), "");
+  EXPECT_EQ(with(4, 0, pngChunk("tRNS", raw("\x00\x0f"))), "");
+  EXPECT_NE(with(4, 0, pngChunk("tRNS", raw("\x00\x10"))), "");
+  EXPECT_NE(with(4, 0, pngChunk("tRNS", "abc")), "");
+  EXPECT_NE(with(8, 4, pngChunk("tRNS", "ab")), "");
+}
+
 TEST_F(PngErrorTest, NamesBadImageData) {
   EXPECT_EQ(errorOfPng(builder(2, 2, 8, 0, raw("\0\x01\x02\0\x03")).bytes()),
             "a.png: byte 33: read image data that ends after 5 bytes when decompressed, expected "
