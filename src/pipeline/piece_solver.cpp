@@ -50,7 +50,7 @@ std::vector<SolveResult> PieceSolver::solve(const std::vector<PieceTask>& tasks,
       log_.pieceDone();
     };
   }
-  executor_.run(std::move(jobs), request_.asked.threads);
+  executor_.run(std::move(jobs), request_.asked.threads, deadline);
   return results;
 }
 

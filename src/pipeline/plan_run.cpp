@@ -20,6 +20,7 @@ PlanRun::PlanRun(const Instance& instance, CheckedRequest request, const SolverR
       executor_(executor),
       deadline_(deadline),
       log_(progress),
+      checker_(instance.graph()),
       piece_solver_(request_, solvers, executor, deadline, log_) {
   const PlanRequest& asked = request_.asked;
   report_.solver = asked.solver;
@@ -47,9 +48,11 @@ PlanReport PlanRun::run() {
 }
 
 void PlanRun::runStages() {
+  log_.enterStage("check");
+  if (reportUnsolvable()) return;
   log_.enterStage("distances");
   if (!computeDistances()) return interrupt();
-  if (reportCutOff()) return;
+  setLowerBounds();
   const std::optional<Decomposition> tree = split();
   if (!tree) return interrupt();
   std::optional<Plan> plan = solve(*tree);
@@ -64,25 +67,27 @@ bool PlanRun::computeDistances() {
       [this](std::uint32_t robot) {
         if (!deadline_.expired()) instance_.distances(robot);
       },
-      report_.threads);
+      report_.threads, deadline_);
   return !deadline_.expired();
 }
 
-bool PlanRun::reportCutOff() {
-  if (const auto robot = findCutOffRobot(instance_)) {
-    report_.termination = Termination::kUnsolvable;
-    report_.cut_off_robot = robot;
-    report_.message =
-        "robot " + std::to_string(*robot) + " at " +
-        toString(instance_.grid().cellOf(instance_.start(*robot))) + " cannot reach its goal " +
-        toString(instance_.grid().cellOf(instance_.goal(*robot))) + ": no free way leads there";
-    return true;
+bool PlanRun::reportUnsolvable() {
+  const SolvabilityVerdict verdict =
+      checker_.check(instance_.starts(), instance_.goals(), deadline_);
+  if (verdict.answer != Solvability::kUnsolvable) return false;
+  report_.termination = Termination::kUnsolvable;
+  report_.message = explain(verdict, instance_.grid());
+  if (verdict.refusal == RefusalKind::kDifferentComponents) {
+    report_.cut_off_robot = verdict.robots.front();
   }
+  return true;
+}
+
+void PlanRun::setLowerBounds() {
   report_.makespan_lower_bound = makespanLowerBound(instance_);
   report_.sum_of_costs_lower_bound = sumOfCostsLowerBound(instance_);
   report_.proved_lower_bound = static_cast<double>(lowerBound(instance_, report_.objective));
   log_.setLowerBound(report_.proved_lower_bound);
-  return false;
 }
 
 TimeSplitOptions PlanRun::timeSplitOptions() const {
@@ -90,6 +95,10 @@ TimeSplitOptions PlanRun::timeSplitOptions() const {
   options.ratios = request_.split.time_ratios;
   options.variant = request_.split_options.variant;
   options.seed = report_.seed;
+  using Check = SplitOptions::Check;
+  const Check check = request_.split_options.check;
+  const bool crowded = instance_.robots() > instance_.graph().size() / 4;
+  if (check == Check::kAlways || (check == Check::kAuto && crowded)) options.checker = &checker_;
   return options;
 }
 

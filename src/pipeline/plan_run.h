@@ -5,6 +5,7 @@
 #include "pipeline/checked_request.h"
 #include "pipeline/piece_solver.h"
 #include "pipeline/run_log.h"
+#include "split_mapf/core/solvability.h"
 #include "split_mapf/split/decomposition.h"
 #include "split_mapf/split/time_split.h"
 
@@ -20,8 +21,10 @@ class PlanRun {
  private:
   void runStages();
   bool computeDistances();
-  /// True when a robot has no way to its goal; otherwise the bounds of the shortest paths are set.
-  bool reportCutOff();
+  /// True, with the reason in the report, when no plan exists.
+  bool reportUnsolvable();
+  /// @pre no robot is cut off.
+  void setLowerBounds();
   std::optional<Decomposition> split();
   std::optional<Plan> solve(const Decomposition& tree);
   void takeVerdict(const SolveResult& result);
@@ -34,6 +37,7 @@ class PlanRun {
   Executor& executor_;
   const Deadline& deadline_;
   RunLog log_;
+  SolvabilityChecker checker_;
   PieceSolver piece_solver_;
   PlanReport report_;
 };

@@ -9,6 +9,9 @@ namespace split_mapf {
 
 const std::vector<SplitOptionInfo>& splitOptions() {
   static const std::vector<SplitOptionInfo> options = {
+      {"check", "auto",
+       "whether intermediate states are checked for solvability: always, never, or auto (where "
+       "robots fill more than a quarter of the free cells)"},
       {"compaction", "true", "remove waiting that the seams brought in: true or false"},
       {"replan", "3",
        "passes of planning robots anew, one at a time, across the seams after compaction; 0: none"},
@@ -37,6 +40,9 @@ SplitOptions readSplitOptions(const std::map<std::string, std::string>& values,
       reader.choice("variant", toString(objective), {"makespan", "sum_of_costs"}) == "makespan"
           ? TimeSplitVariant::kMakespan
           : TimeSplitVariant::kSumOfCosts;
+  const std::string check = reader.choice("check", "auto", {"auto", "always", "never"});
+  if (check == "always") options.check = SplitOptions::Check::kAlways;
+  if (check == "never") options.check = SplitOptions::Check::kNever;
   options.compaction = reader.flag("compaction", options.compaction);
   options.replan_passes = static_cast<std::uint32_t>(
       std::min<std::uint64_t>(reader.count("replan", options.replan_passes), 1000000));

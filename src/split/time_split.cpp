@@ -36,41 +36,89 @@ std::vector<std::uint32_t> targets(const Instance& instance, const std::vector<V
   return target;
 }
 
+// After so many refused draws a seam is given up.
+constexpr std::uint32_t kMostDraws = 8;
+
+/// Draws the seams of one time split, one after another.
+class SeamDrawer {
+ public:
+  SeamDrawer(const Instance& instance, const TimeSplitOptions& options, const Deadline& deadline)
+      : instance_(instance),
+        options_(options),
+        deadline_(deadline),
+        states_(instance),
+        engine_(options.seed) {}
+
+  /// Where the robots are after a piece that takes `ratio` of the time left; empty when no draw
+  /// was solvable or the deadline expired.
+  std::vector<Vertex> draw(const std::vector<Vertex>& from, std::uint32_t left, double ratio) {
+    TimeShare share;
+    share.piece = shareOf(left, ratio);
+    share.rest = left - share.piece;
+    const auto wanted = targets(instance_, from, ratio, share, options_.variant);
+    for (std::uint32_t attempt = 0; attempt < kMostDraws; ++attempt) {
+      std::vector<Vertex> to =
+          states_.choose(from, loosen(wanted, attempt), share, engine_, deadline_);
+      if (to.empty() || options_.checker == nullptr) return to;
+      // Moves can be undone: what is reachable from here leads on to the goals.
+      if (options_.checker->check(from, to, deadline_).answer == Solvability::kSolvable) return to;
+    }
+    return {};
+  }
+
+ private:
+  /// Moves every target by up to `tolerance` steps.
+  std::vector<std::uint32_t> loosen(std::vector<std::uint32_t> target, std::uint32_t tolerance) {
+    if (tolerance == 0) return target;
+    for (std::uint32_t& steps : target) {
+      steps += static_cast<std::uint32_t>(drawBelow(engine_, 2 * tolerance + 1));
+      steps -= std::min(steps, tolerance);
+    }
+    return target;
+  }
+
+  const Instance& instance_;
+  const TimeSplitOptions& options_;
+  const Deadline& deadline_;
+  IntermediateStates states_;
+  RandomEngine engine_;
+};
+
+Decomposition makePiece(const Instance& whole, const std::vector<Vertex>& from,
+                        const std::vector<Vertex>& to, std::size_t number) {
+  Instance piece = Instance::fromVertices(whole.sharedGrid(), from, to);
+  std::vector<std::uint32_t> everyone(whole.robots());
+  std::iota(everyone.begin(), everyone.end(), 0U);
+  for (std::uint32_t i = 0; i < whole.robots(); ++i) {
+    if (to[i] == whole.goal(i)) piece.adoptDistances(i, whole.shareDistances(i));
+  }
+  return Decomposition::leaf(std::move(piece), std::move(everyone),
+                             static_cast<std::uint32_t>(number));
+}
+
 }  // namespace
 
 std::optional<Decomposition> splitTime(const Instance& instance, const TimeSplitOptions& options,
                                        const Deadline& deadline) {
-  IntermediateStates states(instance);
-  RandomEngine engine(options.seed);
-  std::vector<std::uint32_t> everyone(instance.robots());
-  std::iota(everyone.begin(), everyone.end(), 0U);
+  SeamDrawer drawer(instance, options, deadline);
   std::vector<Decomposition> pieces;
   std::vector<Vertex> from = instance.starts();
-  const std::size_t count = options.ratios.size();
-  for (std::size_t j = 0; j < count; ++j) {
+  double open = std::accumulate(options.ratios.begin(), options.ratios.end(), 0.0);
+  double due = 0;  // shares of the time that the next piece takes: more than one after a lost seam
+  for (std::size_t j = 0; j + 1 < options.ratios.size(); ++j) {
     const std::uint32_t left = remainingSteps(instance, from);
-    if (left == 0 && !pieces.empty()) break;
-    const bool last = j + 1 == count;
-    std::vector<Vertex> to = instance.goals();
-    if (!last) {
-      const double open = std::accumulate(options.ratios.begin() + static_cast<std::ptrdiff_t>(j),
-                                          options.ratios.end(), 0.0);
-      const double ratio = options.ratios[j] / open;
-      TimeShare share;
-      share.piece = shareOf(left, ratio);
-      share.rest = left - share.piece;
-      to = states.choose(from, targets(instance, from, ratio, share, options.variant), share,
-                         engine, deadline);
-      if (to.empty()) return std::nullopt;
-      if (to == from) continue;
-    }
-    Instance piece = Instance::fromVertices(instance.sharedGrid(), from, to);
-    for (std::uint32_t i = 0; i < instance.robots(); ++i) {
-      if (to[i] == instance.goal(i)) piece.adoptDistances(i, instance.shareDistances(i));
-    }
-    pieces.push_back(
-        Decomposition::leaf(std::move(piece), everyone, static_cast<std::uint32_t>(pieces.size())));
-    from = std::move(to);
+    if (left == 0) break;
+    due += options.ratios[j];
+    const std::vector<Vertex> to = drawer.draw(from, left, due / open);
+    if (deadline.expired()) return std::nullopt;
+    if (to.empty() || to == from) continue;
+    pieces.push_back(makePiece(instance, from, to, pieces.size()));
+    open -= due;
+    due = 0;
+    from = to;
+  }
+  if (pieces.empty() || from != instance.goals()) {
+    pieces.push_back(makePiece(instance, from, instance.goals(), pieces.size()));
   }
   return Decomposition::sequence(std::move(pieces));
 }

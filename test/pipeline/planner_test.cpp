@@ -54,8 +54,8 @@ TEST(Planner, ReportsTheWholeWay) {
   EXPECT_EQ(report.trace.size(), 1U);
   std::vector<std::string> stages;
   for (const auto& stage : report.stages) stages.push_back(stage.first);
-  EXPECT_EQ(stages, (std::vector<std::string>{"distances", "split", "solve", "stitch", "compact",
-                                              "replan", "validate"}));
+  EXPECT_EQ(stages, (std::vector<std::string>{"check", "distances", "split", "solve", "stitch",
+                                              "compact", "replan", "validate"}));
 }
 
 TEST(Planner, TheSamePlanAtAnyNumberOfThreads) {
@@ -108,6 +108,18 @@ TEST(Planner, NamesTheRobotThatIsCutOff) {
   ASSERT_TRUE(report.cut_off_robot);
   EXPECT_EQ(*report.cut_off_robot, 0U);
   EXPECT_NE(report.message.find("robot 0"), std::string::npos);
+}
+
+TEST(Planner, ProvesThatRobotsCannotPassEachOther) {
+  Executor executor(1);
+  const Instance instance = test::instanceFromAscii({"a.b"}, {"b.a"});
+  for (const char* split : {"none", "2t"}) {
+    const PlanReport report =
+        Planner(builtinSolvers(), executor).plan(instance, requestFor("ecbs", split), Deadline());
+    EXPECT_EQ(report.termination, Termination::kUnsolvable);
+    EXPECT_NE(report.message.find("robots 0 and 1"), std::string::npos) << report.message;
+    EXPECT_FALSE(report.cut_off_robot);
+  }
 }
 
 TEST(Planner, APieceWithoutAPlanIsNoVerdictOnTheWhole) {
@@ -191,7 +203,7 @@ TEST(Planner, TellsHowFarItIs) {
       .plan(crossing(), requestFor("ecbs", "3t"), Deadline(),
             [&](const PlanProgress& progress) { seen.push_back(progress); });
   ASSERT_FALSE(seen.empty());
-  EXPECT_EQ(seen.front().stage, "distances");
+  EXPECT_EQ(seen.front().stage, "check");
   std::uint32_t most = 0;
   for (const PlanProgress& progress : seen) {
     most = std::max(most, progress.subproblems_done);

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "split_mapf/core/random.h"
+#include "support/ascii_grid.h"
 
 namespace split_mapf {
 namespace {
@@ -93,6 +94,35 @@ TEST_P(TimeSplit, CrowdedGridsStillGetStatesOfTheirOwn) {
   const Instance instance = randomInstance(8, 0, 64, 5);
   const auto tree = splitTime(instance, equal(4, GetParam()), Deadline());
   for (const Decomposition* leaf : leavesOf(*tree)) EXPECT_EQ(leaf->instance->robots(), 64U);
+}
+
+TEST_P(TimeSplit, CheckedPiecesAreSolvable) {
+  int refused = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    // Corridors with a siding: many intermediate states put robots in the wrong order.
+    const auto grid = test::gridFromAscii({".........", "##.###.##"});
+    RandomEngine engine(seed);
+    std::vector<Vertex> cells(grid->size());
+    for (Vertex v = 0; v < cells.size(); ++v) cells[v] = v;
+    shuffle(cells, engine);
+    const std::vector<Vertex> starts(cells.begin(), cells.begin() + 4);
+    shuffle(cells, engine);
+    const std::vector<Vertex> goals(cells.begin(), cells.begin() + 4);
+    const Instance instance = Instance::fromVertices(grid, starts, goals);
+    const SolvabilityChecker checker(grid->graph());
+    if (checker.check(starts, goals).answer != Solvability::kSolvable) continue;
+    TimeSplitOptions options = equal(3, GetParam(), seed);
+    const auto unchecked = splitTime(instance, options, Deadline());
+    for (const Decomposition* leaf : leavesOf(*unchecked)) {
+      refused += checkSolvable(*leaf->instance).answer != Solvability::kSolvable;
+    }
+    options.checker = &checker;
+    const auto checked = splitTime(instance, options, Deadline());
+    for (const Decomposition* leaf : leavesOf(*checked)) {
+      EXPECT_EQ(checkSolvable(*leaf->instance).answer, Solvability::kSolvable) << seed;
+    }
+  }
+  EXPECT_GT(refused, 0) << "the check had nothing to refuse";
 }
 
 TEST_P(TimeSplit, MorePiecesThanStepsLeaveTheEmptyOnesOut) {

@@ -22,7 +22,11 @@ const std::vector<SplitOptionInfo>& splitOptions();
 
 /// What a user may set about splitting. The one place where these defaults live.
 struct SplitOptions {
+  /// When intermediate states are checked for solvability.
+  enum class Check { kAuto, kAlways, kNever };
+
   TimeSplitVariant variant = TimeSplitVariant::kMakespan;
+  Check check = Check::kAuto;
   bool compaction = true;
   std::uint32_t replan_passes = 3;
 };

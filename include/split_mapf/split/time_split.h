@@ -6,6 +6,7 @@
 
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
+#include "split_mapf/core/solvability.h"
 #include "split_mapf/split/decomposition.h"
 
 namespace split_mapf {
@@ -20,6 +21,9 @@ struct TimeSplitOptions {
   std::vector<double> ratios;  ///< shares of the time, each > 0; k = ratios.size() pieces
   TimeSplitVariant variant = TimeSplitVariant::kMakespan;
   std::uint64_t seed = 0;  ///< breaks ties between equally good intermediate states
+  /// Of the instance's graph: only intermediate states that the robots can reach are taken. Null:
+  /// no check, as the paper advises for low densities.
+  const SolvabilityChecker* checker = nullptr;
 };
 
 /// Cuts an instance in time: a sequence of pieces, each on the whole grid with all robots, each
@@ -30,7 +34,10 @@ struct TimeSplitOptions {
 /// its detour, then by its distance from the robot's share. So pieces cost no step more than the
 /// whole where free cells on shortest paths exist, which the paper's own widening (d(s,v) and
 /// d(v,g) together one step off any grid vertex) does not reach. Equals are drawn by the seed.
-/// A piece in which no robot has to move is left out. @return nothing when the deadline expired.
+/// Intermediate states that the checker refuses are drawn anew with wider tolerance, a few times;
+/// then that seam is left out, as moves can be undone and so the pieces around it are solvable
+/// together. A piece in which no robot has to move is left out. @return nothing when the deadline
+/// expired.
 /// @pre no robot is cut off from its goal. Cost: the cells on shortest paths, a robot and piece.
 std::optional<Decomposition> splitTime(const Instance& instance, const TimeSplitOptions& options,
                                        const Deadline& deadline);
