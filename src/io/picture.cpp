@@ -113,14 +113,14 @@ class Painter {
 
   // A hollow circle, wide enough to stay visible round another robot's goal.
   void paintStart(std::size_t robot, Cell cell) {
-    const double radius = std::max(0.36 * cell_px_, 1.5);
+    const double radius = std::max(0.32 * cell_px_, 1.5);
     canvas_.fillDisc(centreOf(cell), radius, {robotColour(robot), 1});
     canvas_.fillDisc(centreOf(cell), radius * 0.68, {kPaper, 1});
   }
 
   void paintGoal(std::size_t robot, Cell cell) {
     const Colour colour = robotColour(robot);
-    const double radius = std::max(0.26 * cell_px_, 1.4);
+    const double radius = std::max(0.28 * cell_px_, 1.4);
     canvas_.fillDisc(centreOf(cell), radius, {darkened(colour, 0.35), 1});
     canvas_.fillDisc(centreOf(cell), radius * 0.78, {colour, 1});
   }
