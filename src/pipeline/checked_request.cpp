@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "pipeline/checked_request.h"
 #include "split_mapf/core/error.h"
@@ -20,6 +22,17 @@ SplitSpec checkSplit(const PlanRequest& request,
     throw OptionError("split options need a split, but split '" + request.split + "' makes none");
   }
   return split;
+}
+
+void checkBisection(const CheckedRequest& request) {
+  if (request.split_options.variant != TimeSplitVariant::kBisection) return;
+  const std::vector<double>& ratios = request.split.time_ratios;
+  const bool power = (ratios.size() & (ratios.size() - 1)) == 0;
+  const bool equal =
+      std::adjacent_find(ratios.begin(), ratios.end(), std::not_equal_to<>()) == ratios.end();
+  if (power && equal) return;
+  throw OptionError("variant=bisection halves again and again: split '" + request.asked.split +
+                    "' should be Kt with K a power of two");
 }
 
 void checkNumbers(const PlanRequest& request) {
@@ -51,6 +64,7 @@ CheckedRequest check(const PlanRequest& request, const SolverRegistry& solvers) 
   const auto values = parseNamedValues(request.split_options, "split option");
   checked.split_options = readSplitOptions(values, request.objective);
   checked.split = checkSplit(request, values);
+  checkBisection(checked);
   return checked;
 }
 

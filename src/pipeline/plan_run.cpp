@@ -94,6 +94,7 @@ TimeSplitOptions PlanRun::timeSplitOptions() const {
   TimeSplitOptions options;
   options.ratios = request_.split.time_ratios;
   options.variant = request_.split_options.variant;
+  options.assignment = request_.split_options.assignment;
   options.seed = report_.seed;
   using Check = SplitOptions::Check;
   const Check check = request_.split_options.check;

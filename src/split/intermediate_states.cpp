@@ -3,8 +3,17 @@
 #include <algorithm>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace split_mapf {
+namespace {
+
+// What the parts of a rating weigh when they are added up: a step beyond the shares lengthens the
+// whole plan, a detour only one robot's way, a deviation from the target nothing by itself.
+constexpr std::uint32_t kExcessCost = 10000;
+constexpr std::uint32_t kDetourCost = 100;
+
+}  // namespace
 
 IntermediateStates::IntermediateStates(const Instance& instance)
     : instance_(instance),
@@ -12,25 +21,77 @@ IntermediateStates::IntermediateStates(const Instance& instance)
       seen_(instance.graph().size(), 0),
       walked_(instance.graph().size(), 0) {}
 
+std::vector<std::uint32_t> IntermediateStates::longestFirst(const std::vector<Vertex>& from) const {
+  std::vector<std::uint32_t> order(instance_.robots());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return instance_.distances(a)(from[a]) > instance_.distances(b)(from[b]);
+  });
+  return order;
+}
+
+IntermediateStates::Query IntermediateStates::queryFor(std::uint32_t robot, Vertex from,
+                                                       std::uint32_t target,
+                                                       TimeShare share) const {
+  return {robot, from, instance_.distances(robot)(from), target, share};
+}
+
 std::vector<Vertex> IntermediateStates::choose(const std::vector<Vertex>& from,
                                                const std::vector<std::uint32_t>& target,
                                                TimeShare share, RandomEngine& engine,
                                                const Deadline& deadline) {
-  const std::uint32_t robots = instance_.robots();
-  std::vector<std::uint32_t> length(robots);
-  for (std::uint32_t i = 0; i < robots; ++i) length[i] = instance_.distances(i)(from[i]);
-  std::vector<std::uint32_t> order(robots);
-  std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return length[a] > length[b]; });
   std::fill(used_.begin(), used_.end(), false);
-  std::vector<Vertex> chosen(robots, kNoVertex);
-  for (const std::uint32_t i : order) {
+  std::vector<Vertex> chosen(from.size(), kNoVertex);
+  for (const std::uint32_t i : longestFirst(from)) {
     if (deadline.expired()) return {};
-    chosen[i] = chooseOne({i, from[i], length[i], target[i], share}, engine);
+    chosen[i] = chooseOne(queryFor(i, from[i], target[i], share), engine);
     used_[chosen[i]] = true;
   }
   return chosen;
+}
+
+std::vector<Vertex> IntermediateStates::match(const std::vector<Vertex>& from,
+                                              const std::vector<std::uint32_t>& target,
+                                              TimeShare share, RandomEngine& engine,
+                                              const Deadline& deadline) {
+  std::vector<std::vector<Candidate>> candidates(from.size());
+  for (std::uint32_t i = 0; i < from.size(); ++i) {
+    if (deadline.expired()) return {};
+    candidates[i] = candidatesOf(queryFor(i, from[i], target[i], share), engine);
+  }
+  std::vector<Vertex> chosen = assignAtLeastCost(candidates);
+  std::fill(used_.begin(), used_.end(), false);
+  for (const Vertex v : chosen) {
+    if (v != kNoVertex) used_[v] = true;
+  }
+  for (const std::uint32_t i : longestFirst(from)) {
+    if (chosen[i] != kNoVertex) continue;
+    if (deadline.expired()) return {};
+    chosen[i] = chooseOne(queryFor(i, from[i], target[i], share), engine);
+    used_[chosen[i]] = true;
+  }
+  return chosen;
+}
+
+std::vector<Candidate> IntermediateStates::candidatesOf(const Query& query, RandomEngine& engine) {
+  constexpr std::size_t kMostCandidates = 16;
+  constexpr std::uint32_t kDetour = 2;
+  std::vector<std::pair<Candidate, std::uint64_t>> rated;  // with a random tie-break
+  walk(query, kDetour, [&](Vertex v, std::uint32_t walked) {
+    const Rating rating = rate(query, v, walked);
+    rated.push_back(
+        {{v, kExcessCost * rating.excess + kDetourCost * rating.detour + rating.deviation},
+         engine()});
+  });
+  const auto cheaper = [](const auto& a, const auto& b) {
+    return a.first.cost != b.first.cost ? a.first.cost < b.first.cost : a.second < b.second;
+  };
+  const std::size_t kept = std::min(kMostCandidates, rated.size());
+  std::partial_sort(rated.begin(), rated.begin() + static_cast<std::ptrdiff_t>(kept), rated.end(),
+                    cheaper);
+  std::vector<Candidate> candidates;
+  for (std::size_t i = 0; i < kept; ++i) candidates.push_back(rated[i].first);
+  return candidates;
 }
 
 Vertex IntermediateStates::chooseOne(const Query& query, RandomEngine& engine) {
@@ -47,9 +108,16 @@ Vertex IntermediateStates::chooseOne(const Query& query, RandomEngine& engine) {
 
 void IntermediateStates::searchWithDetour(const Query& query, std::uint32_t detour,
                                           RandomEngine& engine) {
+  best_ = kNoVertex;
+  walk(query, detour, [&](Vertex v, std::uint32_t walked) {
+    if (!used_[v]) consider(query, v, walked, engine);
+  });
+}
+
+template <typename Visit>
+void IntermediateStates::walk(const Query& query, std::uint32_t detour, Visit visit) {
   const DistanceTable& to_goal = instance_.distances(query.robot);
   const std::uint32_t deepest = query.share.piece + detour;
-  best_ = kNoVertex;
   ++search_number_;
   queue_.clear();
   queue_.push_back(query.from);
@@ -57,7 +125,7 @@ void IntermediateStates::searchWithDetour(const Query& query, std::uint32_t deto
   walked_[query.from] = 0;
   for (std::size_t head = 0; head < queue_.size(); ++head) {
     const Vertex v = queue_[head];
-    if (!used_[v]) consider(query, v, walked_[v], engine);
+    visit(v, walked_[v]);
     if (walked_[v] == deepest) continue;
     for (const Vertex u : instance_.graph().neighbours(v)) {
       if (seen_[u] == search_number_) continue;
@@ -69,13 +137,18 @@ void IntermediateStates::searchWithDetour(const Query& query, std::uint32_t deto
   }
 }
 
+IntermediateStates::Rating IntermediateStates::rate(const Query& query, Vertex v,
+                                                    std::uint32_t walked) const {
+  const std::uint32_t left = instance_.distances(query.robot)(v);
+  return {std::max(walked, query.share.piece) - query.share.piece +
+              std::max(left, query.share.rest) - query.share.rest,
+          walked + left - query.length,
+          std::max(walked, query.target) - std::min(walked, query.target)};
+}
+
 void IntermediateStates::consider(const Query& query, Vertex v, std::uint32_t walked,
                                   RandomEngine& engine) {
-  const std::uint32_t left = instance_.distances(query.robot)(v);
-  const Rating rating{std::max(walked, query.share.piece) - query.share.piece +
-                          std::max(left, query.share.rest) - query.share.rest,
-                      walked + left - query.length,
-                      std::max(walked, query.target) - std::min(walked, query.target)};
+  const Rating rating = rate(query, v, walked);
   if (best_ == kNoVertex || better(rating, best_rating_)) {
     best_ = v;
     best_rating_ = rating;

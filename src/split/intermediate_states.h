@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "split/assignment.h"
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/random.h"
@@ -27,6 +28,11 @@ class IntermediateStates {
   std::vector<Vertex> choose(const std::vector<Vertex>& from,
                              const std::vector<std::uint32_t>& target, TimeShare share,
                              RandomEngine& engine, const Deadline& deadline);
+  /// The same at the least total cost over all robots instead of one after another; robots whose
+  /// few best candidates all went to others are then served as above.
+  std::vector<Vertex> match(const std::vector<Vertex>& from,
+                            const std::vector<std::uint32_t>& target, TimeShare share,
+                            RandomEngine& engine, const Deadline& deadline);
 
  private:
   struct Rating {
@@ -42,6 +48,13 @@ class IntermediateStates {
     TimeShare share;
   };
 
+  std::vector<std::uint32_t> longestFirst(const std::vector<Vertex>& from) const;
+  Query queryFor(std::uint32_t robot, Vertex from, std::uint32_t target, TimeShare share) const;
+  /// Walks all cells that cost at most `detour` extra steps; calls visit(vertex, steps walked).
+  template <typename Visit>
+  void walk(const Query& query, std::uint32_t detour, Visit visit);
+  std::vector<Candidate> candidatesOf(const Query& query, RandomEngine& engine);
+  Rating rate(const Query& query, Vertex v, std::uint32_t walked) const;
   Vertex chooseOne(const Query& query, RandomEngine& engine);
   void searchWithDetour(const Query& query, std::uint32_t detour, RandomEngine& engine);
   void consider(const Query& query, Vertex v, std::uint32_t walked, RandomEngine& engine);

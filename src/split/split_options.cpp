@@ -9,6 +9,9 @@ namespace split_mapf {
 
 const std::vector<SplitOptionInfo>& splitOptions() {
   static const std::vector<SplitOptionInfo> options = {
+      {"assignment", "greedy",
+       "how intermediate states are given to robots: greedy (one after another, longest way first) "
+       "or matching (all at once, at the least cost)"},
       {"check", "auto",
        "whether intermediate states are checked for solvability: always, never, or auto (where "
        "robots fill more than a quarter of the free cells)"},
@@ -17,7 +20,9 @@ const std::vector<SplitOptionInfo>& splitOptions() {
        "passes of planning robots anew, one at a time, across the seams after compaction; 0: none"},
       {"variant", "the objective's own",
        "where robots are at the seams of a time split: makespan (each at its share of its way) or "
-       "sum_of_costs (as far as time allows)"},
+       "sum_of_costs (as far as time allows); bisection halves the way again and again, for Kt "
+       "with K a "
+       "power of two"},
   };
   return options;
 }
@@ -36,10 +41,13 @@ SplitOptions readSplitOptions(const std::map<std::string, std::string>& values,
   }
   const OptionValues reader(values);
   SplitOptions options;
-  options.variant =
-      reader.choice("variant", toString(objective), {"makespan", "sum_of_costs"}) == "makespan"
-          ? TimeSplitVariant::kMakespan
-          : TimeSplitVariant::kSumOfCosts;
+  const std::string variant =
+      reader.choice("variant", toString(objective), {"makespan", "sum_of_costs", "bisection"});
+  if (variant == "sum_of_costs") options.variant = TimeSplitVariant::kSumOfCosts;
+  if (variant == "bisection") options.variant = TimeSplitVariant::kBisection;
+  if (reader.choice("assignment", "greedy", {"greedy", "matching"}) == "matching") {
+    options.assignment = StateAssignment::kMatching;
+  }
   const std::string check = reader.choice("check", "auto", {"auto", "always", "never"});
   if (check == "always") options.check = SplitOptions::Check::kAlways;
   if (check == "never") options.check = SplitOptions::Check::kNever;

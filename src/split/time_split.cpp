@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "split/intermediate_states.h"
+#include "split_mapf/core/error.h"
 
 namespace split_mapf {
 namespace {
@@ -29,7 +30,7 @@ std::vector<std::uint32_t> targets(const Instance& instance, const std::vector<V
   std::vector<std::uint32_t> target(instance.robots());
   for (std::uint32_t i = 0; i < instance.robots(); ++i) {
     const std::uint32_t length = instance.distances(i)(from[i]);
-    target[i] = variant == TimeSplitVariant::kMakespan
+    target[i] = variant != TimeSplitVariant::kSumOfCosts
                     ? static_cast<std::uint32_t>(std::lround(length * ratio))
                     : std::min(length, share.piece);
   }
@@ -57,8 +58,10 @@ class SeamDrawer {
     share.rest = left - share.piece;
     const auto wanted = targets(instance_, from, ratio, share, options_.variant);
     for (std::uint32_t attempt = 0; attempt < kMostDraws; ++attempt) {
-      std::vector<Vertex> to =
-          states_.choose(from, loosen(wanted, attempt), share, engine_, deadline_);
+      const auto target = loosen(wanted, attempt);
+      std::vector<Vertex> to = options_.assignment == StateAssignment::kGreedy
+                                   ? states_.choose(from, target, share, engine_, deadline_)
+                                   : states_.match(from, target, share, engine_, deadline_);
       if (to.empty() || options_.checker == nullptr) return to;
       // Moves can be undone: what is reachable from here leads on to the goals.
       if (options_.checker->check(from, to, deadline_).answer == Solvability::kSolvable) return to;
@@ -96,10 +99,37 @@ Decomposition makePiece(const Instance& whole, const std::vector<Vertex>& from,
                              static_cast<std::uint32_t>(number));
 }
 
+/// Halves the instance and then each half, until there are as many pieces as ratios.
+std::optional<Decomposition> bisect(const Instance& instance, TimeSplitOptions options,
+                                    const Deadline& deadline) {
+  const std::size_t pieces = options.ratios.size();
+  if ((pieces & (pieces - 1)) != 0) {
+    throw OptionError("variant=bisection needs a power of two of pieces, not " +
+                      std::to_string(pieces));
+  }
+  options.ratios = {0.5, 0.5};
+  const auto halves = splitTime(instance, options, deadline);
+  if (!halves || pieces == 2) return halves;
+  options.ratios.assign(pieces / 2, 2.0 / static_cast<double>(pieces));
+  std::vector<Decomposition> leaves;
+  for (const Decomposition& half : halves->children) {
+    const auto quarters = splitTime(*half.instance, options, deadline);
+    if (!quarters) return std::nullopt;
+    for (Decomposition leaf : quarters->children) {
+      leaf.phase = static_cast<std::uint32_t>(leaves.size());
+      leaves.push_back(std::move(leaf));
+    }
+  }
+  return Decomposition::sequence(std::move(leaves));
+}
+
 }  // namespace
 
 std::optional<Decomposition> splitTime(const Instance& instance, const TimeSplitOptions& options,
                                        const Deadline& deadline) {
+  if (options.variant == TimeSplitVariant::kBisection && options.ratios.size() > 2) {
+    return bisect(instance, options, deadline);
+  }
   SeamDrawer drawer(instance, options, deadline);
   std::vector<Decomposition> pieces;
   std::vector<Vertex> from = instance.starts();

@@ -93,6 +93,11 @@ TEST(Planner, RefusesWhatItCannotDoBeforeAnyWork) {
   request.refine_sec = 1;
   EXPECT_THROW(planner.requireValid(request), OptionError);
   request = requestFor("ecbs", "2t");
+  request.split_options = {"variant=bisection"};
+  EXPECT_NO_THROW(planner.requireValid(request));
+  request.split = "3t";
+  EXPECT_THROW(planner.requireValid(request), OptionError);
+  request.split = "2t";
   request.split_options = {"colour=red"};
   EXPECT_THROW(planner.requireValid(request), OptionError);
   request.split_options = {"variant=makespan", "variant=makespan"};

@@ -26,6 +26,7 @@ struct SplitOptions {
   enum class Check { kAuto, kAlways, kNever };
 
   TimeSplitVariant variant = TimeSplitVariant::kMakespan;
+  StateAssignment assignment = StateAssignment::kGreedy;
   Check check = Check::kAuto;
   bool compaction = true;
   std::uint32_t replan_passes = 3;

@@ -15,11 +15,21 @@ namespace split_mapf {
 enum class TimeSplitVariant {
   kMakespan,    ///< at its share of its own way (the paper's Algorithm 1)
   kSumOfCosts,  ///< as far as the piece's time allows, home if that suffices (section III-B)
+  /// In the middle, again and again: recursive halving into equal pieces, as in Yu and LaValle,
+  /// T-RO 2016. The baseline that the paper improves on; the number of pieces is a power of two.
+  kBisection,
+};
+
+/// How intermediate states are given to robots.
+enum class StateAssignment {
+  kGreedy,    ///< robot after robot, the longest way first (the paper's Algorithm 1)
+  kMatching,  ///< all at once, at the least total cost
 };
 
 struct TimeSplitOptions {
   std::vector<double> ratios;  ///< shares of the time, each > 0; k = ratios.size() pieces
   TimeSplitVariant variant = TimeSplitVariant::kMakespan;
+  StateAssignment assignment = StateAssignment::kGreedy;
   std::uint64_t seed = 0;  ///< breaks ties between equally good intermediate states
   /// Of the instance's graph: only intermediate states that the robots can reach are taken. Null:
   /// no check, as the paper advises for low densities.
