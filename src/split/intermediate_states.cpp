@@ -42,7 +42,13 @@ std::vector<Vertex> IntermediateStates::choose(const std::vector<Vertex>& from,
                                                const Deadline& deadline) {
   std::fill(used_.begin(), used_.end(), false);
   std::vector<Vertex> chosen(from.size(), kNoVertex);
+  for (std::uint32_t i = 0; i < from.size(); ++i) {
+    if (target[i] != instance_.distances(i)(from[i])) continue;
+    chosen[i] = instance_.goal(i);
+    used_[chosen[i]] = true;
+  }
   for (const std::uint32_t i : longestFirst(from)) {
+    if (chosen[i] != kNoVertex) continue;
     if (deadline.expired()) return {};
     chosen[i] = chooseOne(queryFor(i, from[i], target[i], share), engine);
     used_[chosen[i]] = true;

@@ -22,6 +22,7 @@ class IntermediateStates {
  public:
   explicit IntermediateStates(const Instance& instance);
 
+  /// Robots whose target is their goal get it; the others choose after them, the longest way first.
   /// @param from    where the robots are when the piece begins.
   /// @param target  steps on its way that each robot should have made; a preference.
   /// @return one vertex a robot, all different; empty when the deadline expired.
