@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+
+namespace split_mapf::tool {
+
+/// Checks that a file can be written before work is spent on what shall stand in it. Creates and
+/// changes nothing. @throws InputError naming the file and what stands in the way.
+void requireWritable(const std::string& path);
+
+}  // namespace split_mapf::tool

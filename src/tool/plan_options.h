@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "split_mapf/pipeline/planner.h"
+#include "tool/command_line.h"
+
+namespace split_mapf::tool {
+
+/// What `plan` was asked to do.
+struct PlanOptions {
+  std::string map_file;
+  std::string scenario_file;
+  std::optional<std::uint32_t> agents;
+  PlanRequest request;  ///< `threads` is set
+  std::optional<std::uint64_t> memory_limit_mib;
+  std::string output_file;  ///< empty: none; "-": standard output
+  bool progress = false;
+  bool quiet = false;
+};
+
+/// Declares the options of `plan`.
+void declarePlanOptions(CommandLine& line);
+/// Reads them. @throws OptionError. @pre line.parse() returned true
+PlanOptions readPlanOptions(const CommandLine& line);
+
+}  // namespace split_mapf::tool

@@ -1,0 +1,61 @@
+#include <cstdint>
+#include <iostream>
+
+#include "split_mapf/core/error.h"
+#include "split_mapf/core/instance.h"
+#include "split_mapf/io/cell_paths.h"
+#include "split_mapf/io/map_file.h"
+#include "split_mapf/io/movingai.h"
+#include "split_mapf/io/picture.h"
+#include "split_mapf/io/plan_json.h"
+#include "tool/command_line.h"
+#include "tool/commands.h"
+#include "tool/files.h"
+
+namespace split_mapf::tool {
+namespace {
+
+constexpr std::uint32_t kMostCellPx = 256;
+
+/// Refuses a plan that belongs to another scenario. What else is wrong with it can be seen.
+void requireMatch(const CellPaths& paths, const Scenario& scenario) {
+  for (std::size_t robot = 0; robot < paths.size(); ++robot) {
+    if (paths[robot].empty()) continue;
+    const bool start = paths[robot].front() == scenario.starts[robot];
+    if (start && paths[robot].back() == scenario.goals[robot]) continue;
+    const std::string claimed = toString(start ? paths[robot].back() : paths[robot].front());
+    const std::string expected = toString(start ? scenario.goals[robot] : scenario.starts[robot]);
+    throw InputError("the plan is not for this scenario: robot " + std::to_string(robot) +
+                     (start ? " ends at " : " begins at ") + claimed + ", its " +
+                     (start ? "goal" : "start") + " is " + expected);
+  }
+}
+
+}  // namespace
+
+ExitCode runRender(const Call& call) {
+  CommandLine line("render", "Draws a plan as a PNG picture.");
+  line.require("map", "FILE", "MovingAI .map, or map_server .yaml");
+  line.require("scen", "FILE", "MovingAI .scen that the plan is for");
+  line.require("plan", "FILE", "JSON with `paths`, as `plan --output` writes it");
+  line.require("output", "FILE", "write the picture as PNG");
+  line.offer("scale", "PIXELS", "pixels a cell, 1 to 256 (so that the picture has about 1000)");
+  if (!line.parse(call.arguments)) return ExitCode::kOk;
+  PictureOptions options;
+  options.cell_px =
+      static_cast<std::uint32_t>(line.wholeNumber("scale", options.cell_px, 1, kMostCellPx));
+  const std::string output = line.text("output");
+  requireWritable(output);
+  const auto grid = readMap(line.text("map"));
+  const CellPaths paths = readPlanJson(line.text("plan"));
+  if (paths.empty()) throw InputError(line.text("plan") + ": its `paths` are empty: no plan");
+  requireMatch(paths, readMovingAiScenario(line.text("scen"), *grid,
+                                           static_cast<std::uint32_t>(paths.size())));
+  const Picture picture = drawPlan(*grid, paths, options);
+  writePng(output, picture);
+  std::cout << output << ": " << picture.width_px << "x" << picture.height_px << " pixels, "
+            << paths.size() << (paths.size() == 1 ? " robot\n" : " robots\n");
+  return ExitCode::kOk;
+}
+
+}  // namespace split_mapf::tool

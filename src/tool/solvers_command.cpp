@@ -1,0 +1,33 @@
+#include <iomanip>
+#include <iostream>
+
+#include "split_mapf/solver/registry.h"
+#include "split_mapf/split/split_options.h"
+#include "tool/command_line.h"
+#include "tool/commands.h"
+
+namespace split_mapf::tool {
+namespace {
+
+template <typename Option>
+void printOption(const Option& option) {
+  std::cout << "  " << option.name << "=" << option.default_value << "\n      "
+            << option.description << "\n";
+}
+
+}  // namespace
+
+ExitCode runSolvers(const Call& call) {
+  CommandLine line("solvers", "Lists the solvers with their options, then the split options.");
+  if (!line.parse(call.arguments)) return ExitCode::kOk;
+  for (const std::string& name : builtinSolvers().names()) {
+    const SolverInfo& solver = builtinSolvers().info(name);
+    std::cout << name << "\n    " << solver.description << "\n";
+    for (const OptionInfo& option : solver.options) printOption(option);
+  }
+  std::cout << "\nsplit options\n";
+  for (const auto& option : splitOptions()) printOption(option);
+  return ExitCode::kOk;
+}
+
+}  // namespace split_mapf::tool
