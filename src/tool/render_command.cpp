@@ -17,17 +17,24 @@ namespace {
 
 constexpr std::uint32_t kMostCellPx = 256;
 
+/// One end of a robot's path: where the plan has it, and where the scenario.
+struct PathEnd {
+  const char* what;
+  Cell planned;
+  Cell wanted;
+};
+
 /// Refuses a plan that belongs to another scenario. What else is wrong with it can be seen.
 void requireMatch(const CellPaths& paths, const Scenario& scenario) {
   for (std::size_t robot = 0; robot < paths.size(); ++robot) {
     if (paths[robot].empty()) continue;
-    const bool start = paths[robot].front() == scenario.starts[robot];
-    if (start && paths[robot].back() == scenario.goals[robot]) continue;
-    const std::string claimed = toString(start ? paths[robot].back() : paths[robot].front());
-    const std::string expected = toString(start ? scenario.goals[robot] : scenario.starts[robot]);
-    throw InputError("the plan is not for this scenario: robot " + std::to_string(robot) +
-                     (start ? " ends at " : " begins at ") + claimed + ", its " +
-                     (start ? "goal" : "start") + " is " + expected);
+    for (const PathEnd& end : {PathEnd{"start", paths[robot].front(), scenario.starts[robot]},
+                               PathEnd{"goal", paths[robot].back(), scenario.goals[robot]}}) {
+      if (end.planned == end.wanted) continue;
+      throw InputError("the plan is not for this scenario: robot " + std::to_string(robot) +
+                       " has its " + end.what + " at " + toString(end.planned) +
+                       ", in the scenario it is at " + toString(end.wanted));
+    }
   }
 }
 
