@@ -15,6 +15,7 @@ const std::vector<Command>& commands() {
   static const std::vector<Command> list = {
       {"plan", "plan collision-free paths", runPlan},
       {"validate", "check a plan and list every violation", runValidate},
+      {"check", "decide whether a plan exists", runCheck},
       {"generate", "generate a map and a scenario", runGenerate},
       {"render", "draw a plan as a PNG picture", runRender},
       {"solvers", "list solvers and their options", runSolvers},
