@@ -1,5 +1,7 @@
 #include "core/exchange_classes.h"
 
+#include <utility>
+
 namespace split_mapf {
 
 ExchangeClasses::ExchangeClasses(const PartTree& tree, const BridgeStructure& structure,
@@ -57,17 +59,14 @@ const ExchangeClasses::Barrier& ExchangeClasses::hardestBetween(std::uint32_t a,
                                                                 std::uint32_t b) const {
   std::uint32_t low = class_of_[a];
   std::uint32_t other = class_of_[b];
-  const Barrier* hardest = nullptr;
+  std::uint32_t hardest = 0;
   while (low != other) {
     if (barriers_[low].depth < barriers_[other].depth) std::swap(low, other);
-    const Barrier& barrier = barriers_[low];
-    if (hardest == nullptr || !barrier.blanks_needed ||
-        (hardest->blanks_needed && *hardest->blanks_needed < *barrier.blanks_needed)) {
-      hardest = &barrier;
-    }
-    low = barrier.above;
+    // The root's own entry needs nothing, which compares as least.
+    if (barriers_[hardest].blanks_needed < barriers_[low].blanks_needed) hardest = low;
+    low = barriers_[low].above;
   }
-  return *hardest;
+  return barriers_[hardest];
 }
 
 }  // namespace split_mapf

@@ -36,7 +36,8 @@ class ExchangeClasses {
     bool isBeyond(std::uint32_t rank) const { return first <= rank && rank < last; }
   };
 
-  /// The barrier between two ranks that needs most. @pre their classes differ
+  /// The barrier between two ranks that needs most.
+  /// @pre their classes differ, and the component is no path: all its barriers can be overcome.
   const Barrier& hardestBetween(std::uint32_t a, std::uint32_t b) const;
 
  private:

@@ -24,8 +24,8 @@ Reachability::Reachability(const Graph& graph, const std::vector<Vertex>& starts
     throw std::invalid_argument("too large for exhaustive search");
   }
   reached_.assign(arrangements, false);
-  for (std::uint8_t v = 0; v < graph.size(); ++v) {
-    std::vector<std::uint8_t> path = {v};
+  for (Vertex v = 0; v < graph.size(); ++v) {
+    std::vector<std::uint8_t> path = {static_cast<std::uint8_t>(v)};
     findCycles(path);
   }
   visit(Arrangement(starts.begin(), starts.end()));
@@ -78,11 +78,11 @@ void Reachability::visit(const Arrangement& arrangement) {
 
 void Reachability::stepElementary(const Arrangement& arrangement) {
   std::vector<std::uint8_t> robot_at(graph_.size(), kEmpty);
-  for (std::uint8_t robot = 0; robot < arrangement.size(); ++robot) {
-    robot_at[arrangement[robot]] = robot;
+  for (std::size_t robot = 0; robot < arrangement.size(); ++robot) {
+    robot_at[arrangement[robot]] = static_cast<std::uint8_t>(robot);
   }
   Arrangement next = arrangement;
-  for (std::uint8_t robot = 0; robot < arrangement.size(); ++robot) {
+  for (std::size_t robot = 0; robot < arrangement.size(); ++robot) {
     for (const Vertex v : graph_.neighbours(arrangement[robot])) {
       if (robot_at[v] != kEmpty) continue;
       next[robot] = static_cast<std::uint8_t>(v);
@@ -108,7 +108,7 @@ void Reachability::stepSynchronously(const Arrangement& arrangement, Arrangement
     visit(next);
     return;
   }
-  const auto tryVertex = [&](Vertex v) {
+  const auto try_vertex = [&](Vertex v) {
     for (std::size_t other = 0; other < robot; ++other) {
       const bool is_taken = next[other] == v;
       const bool is_swap = next[other] == arrangement[robot] && arrangement[other] == v;
@@ -118,8 +118,8 @@ void Reachability::stepSynchronously(const Arrangement& arrangement, Arrangement
     stepSynchronously(arrangement, next);
     next.pop_back();
   };
-  tryVertex(arrangement[robot]);
-  for (const Vertex v : graph_.neighbours(arrangement[robot])) tryVertex(v);
+  try_vertex(arrangement[robot]);
+  for (const Vertex v : graph_.neighbours(arrangement[robot])) try_vertex(v);
 }
 
 }  // namespace split_mapf::test

@@ -79,15 +79,15 @@ void addPlace(Sketch& sketch, Vertex at, RandomEngine& engine) {
 void addGrid(Sketch& sketch, RandomEngine& engine) {
   const std::uint32_t width = draw(engine, 2, 4);
   const std::uint32_t height = draw(engine, 1, width == 4 ? 2 : 3);
-  std::vector<Vertex> vertices(width * height, kNoVertex);
+  std::vector<Vertex> vertices(std::size_t{width} * height, kNoVertex);
   for (std::uint32_t i = 0; i < vertices.size(); ++i) {
     if (drawBelow(engine, 6) == 0) continue;
     vertices[i] = sketch.addVertex();
-    const auto joinTo = [&](std::uint32_t other) {
+    const auto join_to = [&](std::uint32_t other) {
       if (vertices[other] != kNoVertex) sketch.join(vertices[i], vertices[other]);
     };
-    if (i % width > 0) joinTo(i - 1);
-    if (i >= width) joinTo(i - width);
+    if (i % width > 0) join_to(i - 1);
+    if (i >= width) join_to(i - width);
   }
 }
 
