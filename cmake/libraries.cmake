@@ -7,7 +7,7 @@ target_include_directories(split_mapf_core
   PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src ${YAML_CPP_INCLUDE_DIR})
 target_link_libraries(split_mapf_core
   PUBLIC Threads::Threads
-  PRIVATE Boost::boost ${YAML_CPP_LIBRARIES} nlohmann_json::nlohmann_json PNG::PNG)
+  PRIVATE Boost::boost ${YAML_CPP_LIBRARIES} nlohmann_json::nlohmann_json PNG::PNG ZLIB::ZLIB)
 split_mapf_compile_options(split_mapf_core)
 
 file(GLOB SPLIT_MAPF_TOOL_SOURCES CONFIGURE_DEPENDS src/tool/*.cpp)
