@@ -3,48 +3,92 @@
 #include <utility>
 
 namespace split_mapf {
-namespace {
 
-/// Fills `distances` level by level. Returns false, with the table unfinished, when a level would
-/// reach the value reserved for "unreachable".
-template <typename Entry>
-bool searchBreadthFirst(const Graph& graph, Vertex goal, Entry unreachable,
-                        std::vector<Entry>& distances) {
-  distances.assign(graph.size(), unreachable);
-  std::vector<Vertex> queue(graph.size());
+DistanceTable::DistanceTable(const Graph& graph, Vertex goal, DistanceExtent extent)
+    : goal_(goal), narrow_(graph.size(), kNarrowUnknown) {
+  narrow_[goal] = 0;
+  if (extent == DistanceExtent::kAll) {
+    searchAll(graph);
+    return;
+  }
+  graph_ = &graph;
+  queue_.push_back(goal);
+}
+
+void DistanceTable::searchAll(const Graph& graph) {
+  // Kept a thread: a fresh queue for each of a thousand tables costs more than the search.
+  thread_local std::vector<Vertex> queue;
+  if (queue.size() < graph.size()) queue.resize(graph.size());
   std::size_t head = 0;
   std::size_t tail = 0;
-  distances[goal] = 0;
-  queue[tail++] = goal;
+  queue[tail++] = goal_;
   while (head < tail) {
     const Vertex v = queue[head++];
-    const auto next = static_cast<Entry>(distances[v] + 1);
+    if (!wide_.empty() || narrow_[v] + 1 == kNarrowUnknown) break;
+    const auto next = static_cast<std::uint16_t>(narrow_[v] + 1);
     for (const Vertex u : graph.neighbours(v)) {
-      if (distances[u] != unreachable) continue;
-      if (next == unreachable) return false;
-      distances[u] = next;
+      if (narrow_[u] != kNarrowUnknown) continue;
+      narrow_[u] = next;
+      queue[tail++] = u;
+    }
+    if (head < tail) continue;
+    return;
+  }
+  // The distances outgrow 16 bits: the rest of the search goes on with 32.
+  widen();
+  for (--head; head < tail; ++head) {
+    for (const Vertex u : graph.neighbours(queue[head])) {
+      if (wide_[u] != kUnreachable) continue;
+      wide_[u] = wide_[queue[head]] + 1;
       queue[tail++] = u;
     }
   }
-  return true;
 }
 
-}  // namespace
+std::uint32_t DistanceTable::search(Vertex v) const {
+  while (head_ < queue_.size()) {
+    const Vertex from = queue_[head_++];
+    const std::uint32_t next = (wide_.empty() ? narrow_[from] : wide_[from]) + 1U;
+    if (wide_.empty() && next == kNarrowUnknown) widen();
+    std::uint32_t found = kUnreachable;
+    for (const Vertex u : graph_->neighbours(from)) {
+      const bool known = wide_.empty() ? narrow_[u] != kNarrowUnknown : wide_[u] != kUnreachable;
+      if (known) continue;
+      settle(u, next);
+      queue_.push_back(u);
+      if (u == v) found = next;
+    }
+    if (found != kUnreachable) return found;
+  }
+  return kUnreachable;
+}
 
-DistanceTable::DistanceTable(const Graph& graph, Vertex goal) : goal_(goal) {
-  if (searchBreadthFirst(graph, goal, kNarrowUnreachable, narrow_)) return;
+void DistanceTable::settle(Vertex v, std::uint32_t distance) const {
+  if (wide_.empty()) {
+    narrow_[v] = static_cast<std::uint16_t>(distance);
+  } else {
+    wide_[v] = distance;
+  }
+}
+
+void DistanceTable::widen() const {
+  wide_.resize(narrow_.size());
+  for (std::size_t v = 0; v < narrow_.size(); ++v) {
+    wide_[v] = narrow_[v] == kNarrowUnknown ? kUnreachable : narrow_[v];
+  }
   narrow_.clear();
   narrow_.shrink_to_fit();
-  searchBreadthFirst(graph, goal, kUnreachable, wide_);
 }
 
-DistanceTables::DistanceTables(const Graph& graph, const std::vector<Vertex>& goals)
-    : graph_(&graph), goals_(goals), slots_(goals.size()) {}
+DistanceTables::DistanceTables(const Graph& graph, const std::vector<Vertex>& goals,
+                               DistanceExtent extent)
+    : graph_(&graph), goals_(goals), extent_(extent), slots_(goals.size()) {}
 
 const DistanceTable& DistanceTables::operator[](std::uint32_t i) const {
   Slot& slot = slots_[i];
   std::call_once(slot.once, [&] {
-    if (!slot.table) slot.table = std::make_shared<const DistanceTable>(*graph_, goals_[i]);
+    if (!slot.table)
+      slot.table = std::make_shared<const DistanceTable>(*graph_, goals_[i], extent_);
   });
   return *slot.table;
 }

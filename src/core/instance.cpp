@@ -48,7 +48,7 @@ void reportDuplicates(const Grid& grid, const std::vector<Vertex>& vertices, con
 }  // namespace
 
 Instance::Instance(std::shared_ptr<const Grid> grid, const std::vector<Cell>& starts,
-                   const std::vector<Cell>& goals)
+                   const std::vector<Cell>& goals, DistanceExtent extent)
     : grid_(std::move(grid)) {
   if (starts.size() != goals.size()) {
     throw InputError(std::to_string(starts.size()) + " starts but " + std::to_string(goals.size()) +
@@ -66,16 +66,16 @@ Instance::Instance(std::shared_ptr<const Grid> grid, const std::vector<Cell>& st
         [](const InstanceFault& a, const InstanceFault& b) { return a.robot < b.robot; });
     throw InstanceError(std::move(faults));
   }
-  tables_ = std::make_shared<DistanceTables>(grid_->graph(), goals_);
+  tables_ = std::make_shared<DistanceTables>(grid_->graph(), goals_, extent);
 }
 
 Instance Instance::fromVertices(std::shared_ptr<const Grid> grid, const std::vector<Vertex>& starts,
-                                const std::vector<Vertex>& goals) {
+                                const std::vector<Vertex>& goals, DistanceExtent extent) {
   std::vector<Cell> start_cells;
   std::vector<Cell> goal_cells;
   for (const Vertex v : starts) start_cells.push_back(grid->cellOf(v));
   for (const Vertex v : goals) goal_cells.push_back(grid->cellOf(v));
-  return Instance(std::move(grid), start_cells, goal_cells);
+  return Instance(std::move(grid), start_cells, goal_cells, extent);
 }
 
 std::optional<std::uint32_t> findCutOffRobot(const Instance& instance) {

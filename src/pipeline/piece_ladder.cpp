@@ -14,7 +14,7 @@ bool maySucceedOtherwise(Termination termination) {
 /// The piece from the start of `left` to the end of `right`.
 Decomposition join(const Decomposition& left, const Decomposition& right) {
   Instance joined = Instance::fromVertices(left.instance->sharedGrid(), left.instance->starts(),
-                                           right.instance->goals());
+                                           right.instance->goals(), DistanceExtent::kOnDemand);
   for (std::uint32_t i = 0; i < joined.robots(); ++i) {
     joined.adoptDistances(i, right.instance->shareDistances(i));
   }

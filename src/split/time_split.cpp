@@ -89,7 +89,8 @@ class SeamDrawer {
 
 Decomposition makePiece(const Instance& whole, const std::vector<Vertex>& from,
                         const std::vector<Vertex>& to, std::size_t number) {
-  Instance piece = Instance::fromVertices(whole.sharedGrid(), from, to);
+  // A piece's robots see little of the map, so its distances are found as they are asked for.
+  Instance piece = Instance::fromVertices(whole.sharedGrid(), from, to, DistanceExtent::kOnDemand);
   std::vector<std::uint32_t> everyone(whole.robots());
   std::iota(everyone.begin(), everyone.end(), 0U);
   for (std::uint32_t i = 0; i < whole.robots(); ++i) {

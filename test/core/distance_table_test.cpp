@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "split_mapf/core/grid.h"
+#include "split_mapf/core/random.h"
 #include "support/ascii_grid.h"
 #include "support/small_instances.h"
 
@@ -92,6 +93,31 @@ TEST(DistanceTable, ChangesWidthExactlyWhereSixteenBitsEnd) {
   EXPECT_TRUE(DistanceTable(exceeds, 0).isWide());
   EXPECT_EQ(DistanceTable(exceeds, 0)(65535), 65535U);
   EXPECT_FALSE(DistanceTable(exceeds, 32768).isWide());
+}
+
+TEST(DistanceTableOnDemand, SaysTheSameInWhateverOrderItIsAsked) {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const Instance instance = test::smallInstance(seed);
+    const DistanceTable whole(instance.graph(), instance.goal(0));
+    const DistanceTable lazy(instance.graph(), instance.goal(0), DistanceExtent::kOnDemand);
+    RandomEngine engine(seed);
+    for (int question = 0; question < 60; ++question) {
+      const auto v = static_cast<Vertex>(drawBelow(engine, instance.graph().size()));
+      ASSERT_EQ(lazy(v), whole(v)) << "seed " << seed << " vertex " << v;
+    }
+  }
+}
+
+TEST(DistanceTableOnDemand, StaysExactBeyondSixteenBits) {
+  const auto grid = test::serpentineGrid(400);
+  const Vertex last = grid->size() - 1;
+  const DistanceTable whole(grid->graph(), 0);
+  const DistanceTable lazy(grid->graph(), 0, DistanceExtent::kOnDemand);
+  EXPECT_EQ(lazy(10), whole(10));
+  EXPECT_FALSE(lazy.isWide());
+  EXPECT_EQ(lazy(last), whole(last));
+  EXPECT_TRUE(lazy.isWide());
+  for (Vertex v = 0; v < grid->size(); ++v) ASSERT_EQ(lazy(v), whole(v));
 }
 
 TEST(DistanceTables, ManyThreadsShareOneTableAGoal) {

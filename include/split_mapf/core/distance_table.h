@@ -9,40 +9,61 @@
 
 namespace split_mapf {
 
+/// How much of a distance table is computed at once.
+enum class DistanceExtent {
+  kAll,       ///< everything, in the constructor: the table is immutable then
+  kOnDemand,  ///< as far from the goal as somebody asks: for tables of which little is read
+};
+
 /// Exact shortest distances [steps] from every vertex to one goal, by breadth-first search.
-/// Entries take 16 bits while every distance fits, 32 bits otherwise. Immutable after
-/// construction. Cost: O(V + E) time, 2 or 4 bytes a vertex.
+/// Entries take 16 bits while every distance fits, 32 bits otherwise. A table of kAll is safe to
+/// read from several threads; one of kOnDemand grows while it is read and belongs to one thread at
+/// a time. Cost: O(V + E) time (kOnDemand: for the part within the greatest distance asked for), 2
+/// or 4 bytes a vertex.
 class DistanceTable {
  public:
   /// The distance of a vertex that cannot reach the goal.
   static constexpr std::uint32_t kUnreachable = 0xffffffffU;
 
-  DistanceTable(const Graph& graph, Vertex goal);
+  /// @pre kOnDemand: `graph` outlives the table.
+  DistanceTable(const Graph& graph, Vertex goal, DistanceExtent extent = DistanceExtent::kAll);
 
   Vertex goal() const { return goal_; }
   std::uint32_t operator()(Vertex v) const {
     if (wide_.empty()) {
       const std::uint16_t d = narrow_[v];
-      return d == kNarrowUnreachable ? kUnreachable : d;
+      return d != kNarrowUnknown ? d : search(v);
     }
-    return wide_[v];
+    return wide_[v] != kUnreachable ? wide_[v] : search(v);
   }
   bool isWide() const { return !wide_.empty(); }
 
  private:
-  static constexpr std::uint16_t kNarrowUnreachable = 0xffffU;
+  static constexpr std::uint16_t kNarrowUnknown = 0xffffU;
+
+  void searchAll(const Graph& graph);
+  /// Goes on with the search until it meets `v` or ends.
+  std::uint32_t search(Vertex v) const;
+  void settle(Vertex v, std::uint32_t distance) const;
+  void widen() const;
 
   Vertex goal_;
-  std::vector<std::uint16_t> narrow_;
-  std::vector<std::uint32_t> wide_;
+  // What a search on demand changes. The queue is empty when the search has ended.
+  mutable std::vector<std::uint16_t> narrow_;
+  mutable std::vector<std::uint32_t> wide_;
+  mutable std::vector<Vertex> queue_;
+  mutable std::size_t head_ = 0;
+  const Graph* graph_ = nullptr;
 };
 
 /// One distance table a goal, each computed when first asked for and kept from then on.
-/// Thread-safe: two threads asking for the same table compute it once.
+/// Thread-safe: two threads asking for the same table compute it once; what they may do with it,
+/// DistanceExtent says.
 class DistanceTables {
  public:
   /// @pre `graph` outlives this object.
-  DistanceTables(const Graph& graph, const std::vector<Vertex>& goals);
+  DistanceTables(const Graph& graph, const std::vector<Vertex>& goals,
+                 DistanceExtent extent = DistanceExtent::kAll);
 
   const DistanceTable& operator[](std::uint32_t i) const;
   /// Shares a table that stands already, so that stages never search for the same goal twice.
@@ -57,6 +78,7 @@ class DistanceTables {
   };
   const Graph* graph_;
   std::vector<Vertex> goals_;
+  DistanceExtent extent_;
   mutable std::vector<Slot> slots_;
 };
 

@@ -14,16 +14,17 @@ namespace split_mapf {
 /// A well-posed multi-robot path finding problem: every start and goal is a free cell, no two
 /// robots share a start, no two share a goal. A robot may be cut off from its goal: such an
 /// instance is well-posed and unsolvable. Immutable and cheap to copy (grid and distance tables
-/// are shared); safe to use from several threads.
+/// are shared); safe to use from several threads, unless its distances are found on demand.
 class Instance {
  public:
   /// @throws InstanceError naming every robot and cell at fault; InputError when there is no robot
   /// or the two lists differ in length.
   Instance(std::shared_ptr<const Grid> grid, const std::vector<Cell>& starts,
-           const std::vector<Cell>& goals);
+           const std::vector<Cell>& goals, DistanceExtent extent = DistanceExtent::kAll);
   /// The same from vertices of the grid. @pre every vertex < grid->size().
   static Instance fromVertices(std::shared_ptr<const Grid> grid, const std::vector<Vertex>& starts,
-                               const std::vector<Vertex>& goals);
+                               const std::vector<Vertex>& goals,
+                               DistanceExtent extent = DistanceExtent::kAll);
 
   const Grid& grid() const { return *grid_; }
   const std::shared_ptr<const Grid>& sharedGrid() const { return grid_; }
