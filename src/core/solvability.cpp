@@ -1,6 +1,7 @@
 #include "split_mapf/core/solvability.h"
 
 #include <stdexcept>
+#include <string>
 
 #include "core/bridge_structure.h"
 #include "core/part_check.h"
@@ -12,14 +13,14 @@ void requireDistinct(const Graph& graph, const std::vector<Vertex>& vertices, co
   std::vector<bool> taken(graph.size(), false);
   for (std::size_t robot = 0; robot < vertices.size(); ++robot) {
     const Vertex v = vertices[robot];
-    const std::string name =
-        "robot " + std::to_string(robot) + ": its " + role + ", vertex " + std::to_string(v);
-    if (v >= graph.size()) {
-      throw std::invalid_argument(name + ", is not one of the graph's " +
-                                  std::to_string(graph.size()));
+    if (v < graph.size() && !taken[v]) {
+      taken[v] = true;
+      continue;
     }
-    if (taken[v]) throw std::invalid_argument(name + ", is also another robot's");
-    taken[v] = true;
+    throw std::invalid_argument(
+        "robot " + std::to_string(robot) + ": its " + role + ", vertex " + std::to_string(v) +
+        (v < graph.size() ? ", is also another robot's"
+                          : ", is not one of the graph's " + std::to_string(graph.size())));
   }
 }
 

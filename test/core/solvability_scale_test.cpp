@@ -1,13 +1,17 @@
 // Beyond what exhaustive search can take: what must hold on every graph, and what a check costs.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <numeric>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "split_mapf/core/random.h"
 #include "split_mapf/core/solvability.h"
+#include "split_mapf/io/movingai.h"
+#include "support/benchmarks.h"
 #include "support/solvability_cases.h"
 
 namespace split_mapf {
@@ -107,6 +111,27 @@ TEST_F(LargerGraphs, TakingARobotAwayNeverHurts) {
       goals.pop_back();
     }
     EXPECT_EQ(before, Solvability::kSolvable) << "a single robot goes where it wants";
+  }
+}
+
+TEST(SolvabilityCost, BenchmarkMapsTakeMilliseconds) {
+  for (const char* name : {"Berlin_1_256", "brc202d", "den520d", "ost003d", "room-64-64-8",
+                           "maze-32-32-4", "random-32-32-20", "warehouse-10-20-10-2-1"}) {
+    const std::string stem = std::string("movingai/") + name;
+    const auto map = test::benchmarkFile(stem + ".map");
+    const auto scenario = test::benchmarkFile(stem + "-random-1.scen");
+    if (!map || !scenario) GTEST_SKIP() << test::benchmarkMissing(stem);
+    const auto grid = readMovingAiMap(*map);
+    const Scenario robots = readMovingAiScenario(*scenario, *grid);
+    const Instance instance(grid, robots.starts, robots.goals);
+    double least_sec = 1e9;
+    for (int repeat = 0; repeat < 5; ++repeat) {
+      const auto begin = std::chrono::steady_clock::now();
+      EXPECT_EQ(checkSolvable(instance).answer, Solvability::kSolvable) << name;
+      const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+      least_sec = std::min(least_sec, seconds.count());
+    }
+    EXPECT_LT(least_sec, 0.05) << name;
   }
 }
 
