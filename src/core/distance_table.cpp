@@ -22,21 +22,22 @@ void DistanceTable::searchAll(const Graph& graph) {
   std::size_t head = 0;
   std::size_t tail = 0;
   queue[tail++] = goal_;
-  while (head < tail) {
-    const Vertex v = queue[head++];
-    if (!wide_.empty() || narrow_[v] + 1 == kNarrowUnknown) break;
+  for (; head < tail; ++head) {
+    const Vertex v = queue[head];
     const auto next = static_cast<std::uint16_t>(narrow_[v] + 1);
     for (const Vertex u : graph.neighbours(v)) {
       if (narrow_[u] != kNarrowUnknown) continue;
+      if (next == kNarrowUnknown) return searchWide(graph, queue, head, tail);
       narrow_[u] = next;
       queue[tail++] = u;
     }
-    if (head < tail) continue;
-    return;
   }
-  // The distances outgrow 16 bits: the rest of the search goes on with 32.
+}
+
+void DistanceTable::searchWide(const Graph& graph, std::vector<Vertex>& queue, std::size_t head,
+                               std::size_t tail) {
   widen();
-  for (--head; head < tail; ++head) {
+  for (; head < tail; ++head) {
     for (const Vertex u : graph.neighbours(queue[head])) {
       if (wide_[u] != kUnreachable) continue;
       wide_[u] = wide_[queue[head]] + 1;
@@ -49,11 +50,11 @@ std::uint32_t DistanceTable::search(Vertex v) const {
   while (head_ < queue_.size()) {
     const Vertex from = queue_[head_++];
     const std::uint32_t next = (wide_.empty() ? narrow_[from] : wide_[from]) + 1U;
-    if (wide_.empty() && next == kNarrowUnknown) widen();
     std::uint32_t found = kUnreachable;
     for (const Vertex u : graph_->neighbours(from)) {
       const bool known = wide_.empty() ? narrow_[u] != kNarrowUnknown : wide_[u] != kUnreachable;
       if (known) continue;
+      if (wide_.empty() && next == kNarrowUnknown) widen();
       settle(u, next);
       queue_.push_back(u);
       if (u == v) found = next;

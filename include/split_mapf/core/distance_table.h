@@ -42,6 +42,9 @@ class DistanceTable {
   static constexpr std::uint16_t kNarrowUnknown = 0xffffU;
 
   void searchAll(const Graph& graph);
+  /// Goes on with 32 bits from a queue whose distances outgrow 16.
+  void searchWide(const Graph& graph, std::vector<Vertex>& queue, std::size_t head,
+                  std::size_t tail);
   /// Goes on with the search until it meets `v` or ends.
   std::uint32_t search(Vertex v) const;
   void settle(Vertex v, std::uint32_t distance) const;
