@@ -49,6 +49,7 @@ class ViolationWriter {
   }
   std::string at(std::uint32_t robot, std::uint32_t step) const {
     const std::vector<Cell>& path = paths_[robot];
+    if (path.empty()) return "no cell";
     const Cell cell = path[std::min<std::size_t>(step, path.size() - 1)];
     return "cell " + grid_.geometry.describe(cell);
   }

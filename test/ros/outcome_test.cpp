@@ -1,0 +1,67 @@
+#include "split_mapf/ros/outcome.h"
+
+#include <gtest/gtest.h>
+#include <split_mapf/PlanOutcome.h>
+
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include <ros/message_traits.h>
+
+namespace split_mapf {
+namespace {
+
+/// The constants of PlanOutcome.msg, read from the definition that the message carries.
+std::map<std::string, int> constantsOfMessage() {
+  std::map<std::string, int> constants;
+  std::istringstream lines(ros::message_traits::definition<PlanOutcome>());
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t equals = line.find('=');
+    if (line.rfind("int32 ", 0) != 0 || equals == std::string::npos) continue;
+    constants[line.substr(6, equals - 6)] = std::stoi(line.substr(equals + 1));
+  }
+  return constants;
+}
+
+const std::set<int> kCodesOfTheInterface = {0,  1,  2,  3,  4,  5,  10, 11, 12, 13, 20,
+                                            21, 22, 23, 24, 25, 26, 27, 28, 29, 40, 50};
+
+TEST(Outcome, IsTheSameAsTheMessage) {
+  const std::map<std::string, int> constants = constantsOfMessage();
+  std::set<int> codes;
+  for (const auto& [name, code] : constants) {
+    codes.insert(code);
+    EXPECT_EQ(toString(static_cast<Outcome>(code)), name);
+  }
+  EXPECT_EQ(codes, kCodesOfTheInterface);
+}
+
+TEST(Outcome, KnowsNoOtherCode) {
+  for (int code = -1; code < 100; ++code) {
+    if (kCodesOfTheInterface.count(code) != 0) continue;
+    EXPECT_THROW(toString(static_cast<Outcome>(code)), std::logic_error) << code;
+  }
+}
+
+TEST(Outcome, FollowsFromEveryTermination) {
+  EXPECT_EQ(outcomeOf(Termination::kSolved), Outcome::kSucceeded);
+  EXPECT_EQ(outcomeOf(Termination::kUnsolvable), Outcome::kUnsolvable);
+  EXPECT_EQ(outcomeOf(Termination::kNoPlanFound), Outcome::kNoPlanFound);
+  EXPECT_EQ(outcomeOf(Termination::kTimeout), Outcome::kTimeout);
+  EXPECT_EQ(outcomeOf(Termination::kCancelled), Outcome::kCancelled);
+  EXPECT_EQ(outcomeOf(Termination::kMemoryLimit), Outcome::kMemoryLimit);
+}
+
+TEST(GoalError, TakesItsOutcomeFromTheFirstFault) {
+  const GoalError error({makeFault("a", Outcome::kBlockedCell, "first"),
+                         makeFault("b", Outcome::kOutsideMap, "second")});
+  EXPECT_EQ(error.outcome(), Outcome::kBlockedCell);
+  EXPECT_STREQ(error.what(), "first (and 1 more faults)");
+  ASSERT_EQ(error.faults().size(), 2U);
+  EXPECT_EQ(error.faults()[1].code, codeOf(Outcome::kOutsideMap));
+}
+
+}  // namespace
+}  // namespace split_mapf

@@ -1,0 +1,400 @@
+// The planner node as a client sees it.
+
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <split_mapf/ListSolvers.h>
+#include <split_mapf/PlanOutcome.h>
+#include <split_mapf/ValidatePlan.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <set>
+
+#include "ros/goal_messages.h"
+#include "ros/tracked_goal.h"
+
+namespace split_mapf {
+namespace {
+
+using test::hardGoal;
+using test::mapFromAscii;
+using test::poseAt;
+using test::runGoal;
+using test::smallGoal;
+using test::taskBetween;
+using test::TrackedGoal;
+
+class PlannerNode : public ::testing::Test {
+ protected:
+  void SetUp() override { ASSERT_TRUE(client_.waitForActionServerToStart(ros::Duration(20))); }
+  void expectServing() {
+    const TrackedGoal goal = runGoal(client_, smallGoal());
+    EXPECT_EQ(goal.result().outcome, PlanOutcome::SUCCEEDED) << goal.result().message;
+  }
+
+  ros::NodeHandle node_;
+  test::PlanActionClient client_{"split_mapf/plan_paths"};
+};
+
+TEST_F(PlannerNode, PlansAndSaysHowGood) {
+  PlanPathsGoal message = smallGoal();
+  message.options.fill_poses = true;
+  message.options.step_duration = 0.5;
+  const ros::Time before = ros::Time::now();
+  TrackedGoal goal = runGoal(client_, message);
+  EXPECT_EQ(goal.state(), "SUCCEEDED");
+  const PlanPathsResult result = goal.result();
+  EXPECT_EQ(result.outcome, PlanOutcome::SUCCEEDED);
+  EXPECT_TRUE(result.faults.empty());
+  EXPECT_EQ(result.plan.header.frame_id, "map");
+  EXPECT_GE(result.plan.header.stamp, before);
+  EXPECT_EQ(result.plan.grid, message.map.info);
+  EXPECT_EQ(result.plan.step_duration, 0.5);
+  EXPECT_EQ(result.plan.objective, "makespan");
+  EXPECT_EQ(result.plan.makespan, 5U);
+  EXPECT_EQ(result.plan.sum_of_costs, 10U);
+  ASSERT_EQ(result.plan.paths.size(), 2U);
+  EXPECT_EQ(result.plan.paths[0].robot_id, "left");
+  EXPECT_EQ(result.plan.paths[0].cells.front(), 12U);
+  EXPECT_EQ(result.plan.paths[0].cells.back(), 17U);
+  ASSERT_EQ(result.plan.paths[1].path.poses.size(), 6U);
+  EXPECT_EQ(result.plan.paths[1].path.poses[2].header.stamp,
+            result.plan.header.stamp + ros::Duration(1.0));
+  EXPECT_EQ(result.statistics.makespan_lower_bound, 5U);
+  EXPECT_EQ(result.statistics.sum_of_costs_lower_bound, 10U);
+  EXPECT_TRUE(result.statistics.optimal);
+  EXPECT_FALSE(result.statistics.certified_by.empty());
+  EXPECT_EQ(result.statistics.stage_names.size(), result.statistics.stage_seconds.size());
+  EXPECT_FALSE(result.statistics.stage_names.empty());
+  // Feedback of every stage may trail the result: another topic.
+  ros::WallDuration(0.2).sleep();
+  std::set<std::string> stages;
+  for (const PlanPathsFeedback& feedback : goal.feedback()) stages.insert(feedback.stage);
+  EXPECT_EQ(stages.count("solve"), 1U);
+  EXPECT_EQ(goal.timesDone(), 1);
+}
+
+TEST_F(PlannerNode, PlansInTheYawedFrameOfTheMap) {
+  PlanPathsGoal message;
+  message.map = mapFromAscii({"...", ".##"});
+  message.map.header.frame_id = "site";
+  message.map.info.origin.position.x = 10;
+  message.map.info.origin.orientation.z = message.map.info.origin.orientation.w = std::sqrt(0.5);
+  RobotTask task = taskBetween("a", poseAt(9.5, 0.5), poseAt(8.5, 2.5));
+  task.start.header.frame_id = task.goal.header.frame_id = "site";
+  message.robots = {task};
+  const PlanPathsResult result = runGoal(client_, message).result();
+  ASSERT_EQ(result.outcome, PlanOutcome::SUCCEEDED) << result.message;
+  EXPECT_EQ(result.plan.paths[0].cells, (std::vector<std::uint32_t>{0, 3, 4, 5}));
+}
+
+TEST_F(PlannerNode, TransformsPoses) {
+  tf2_ros::StaticTransformBroadcaster broadcaster;
+  geometry_msgs::TransformStamped dock;
+  dock.header.frame_id = "map";
+  dock.child_frame_id = "dock";
+  dock.transform.translation.x = 5;
+  dock.transform.rotation.z = 1;  // half a turn
+  broadcaster.sendTransform(dock);
+  PlanPathsGoal message = smallGoal();
+  message.robots.resize(1);
+  message.robots[0].start = poseAt(2.5, -0.5);
+  message.robots[0].start.header.frame_id = "dock";
+  const PlanPathsResult result = runGoal(client_, message).result();
+  ASSERT_EQ(result.outcome, PlanOutcome::SUCCEEDED) << result.message;
+  EXPECT_EQ(result.plan.paths[0].cells.front(), 2U);
+}
+
+TEST_F(PlannerNode, UsesTheTopicsMapWhenAGoalHasNone) {
+  PlanPathsGoal message = smallGoal();
+  const nav_msgs::OccupancyGrid map = message.map;
+  message.map = nav_msgs::OccupancyGrid();
+  const PlanPathsResult early = runGoal(client_, message).result();
+  EXPECT_EQ(early.outcome, PlanOutcome::INVALID_MAP);
+  EXPECT_NE(early.message.find("/map"), std::string::npos) << early.message;
+
+  ros::Publisher publisher = node_.advertise<nav_msgs::OccupancyGrid>("map", 1, true);
+  publisher.publish(map);
+  PlanPathsResult result;
+  for (int i = 0; i < 50 && result.plan.paths.empty(); ++i) {
+    result = runGoal(client_, message).result();
+    ros::WallDuration(0.1).sleep();
+  }
+  EXPECT_EQ(result.outcome, PlanOutcome::SUCCEEDED) << result.message;
+  EXPECT_EQ(result.plan.grid, map.info);
+}
+
+/// A goal that ends without a plan, and how.
+struct BadGoal {
+  std::string name;
+  std::int32_t outcome;
+  std::function<void(PlanPathsGoal&)> spoil;
+  std::vector<std::string> faulty;  ///< ids of the robots at fault, in order
+  std::string expected_in_message;
+};
+
+void PrintTo(const BadGoal& bad, std::ostream* out) { *out << bad.name; }
+
+class BadGoalTest : public PlannerNode, public ::testing::WithParamInterface<BadGoal> {};
+
+TEST_P(BadGoalTest, EndsWithItsOutcomeAndTheNodeLivesOn) {
+  PlanPathsGoal message = smallGoal();
+  GetParam().spoil(message);
+  TrackedGoal goal = runGoal(client_, message);
+  const PlanPathsResult result = goal.result();
+  EXPECT_EQ(result.outcome, GetParam().outcome) << result.message;
+  EXPECT_EQ(goal.state(), "ABORTED");
+  EXPECT_TRUE(result.plan.paths.empty());
+  EXPECT_NE(result.message.find(GetParam().expected_in_message), std::string::npos)
+      << result.message;
+  std::vector<std::string> faulty;
+  for (const RobotFault& fault : result.faults) {
+    faulty.push_back(fault.robot_id);
+    EXPECT_FALSE(fault.message.empty());
+  }
+  EXPECT_EQ(faulty, GetParam().faulty);
+  if (!result.faults.empty()) {
+    EXPECT_EQ(result.faults.front().code, result.outcome);
+  }
+  EXPECT_EQ(goal.timesDone(), 1);
+  expectServing();
+}
+
+const std::vector<std::string> kNobody;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+INSTANTIATE_TEST_SUITE_P(
+    Maps, BadGoalTest,
+    ::testing::Values(BadGoal{"MisSized", PlanOutcome::INVALID_MAP,
+                              [](auto& g) { g.map.data.pop_back(); }, kNobody, "35 cells"},
+                      BadGoal{"NoRows", PlanOutcome::INVALID_MAP,
+                              [](auto& g) { g.map.info.height = 0; }, kNobody, "6x0"},
+                      BadGoal{"Resolution", PlanOutcome::INVALID_MAP,
+                              [](auto& g) { g.map.info.resolution = -0.1F; }, kNobody,
+                              "resolution"},
+                      BadGoal{"NoFreeCell",
+                              PlanOutcome::BLOCKED_CELL,
+                              [](auto& g) { std::fill(g.map.data.begin(), g.map.data.end(), 100); },
+                              {"left", "left", "right", "right"},
+                              "'left'"}),
+    [](const auto& info) { return info.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    Options, BadGoalTest,
+    ::testing::Values(
+        BadGoal{"Solver", PlanOutcome::UNKNOWN_SOLVER, [](auto& g) { g.options.solver = "oracle"; },
+                kNobody, "oracle"},
+        BadGoal{"SolverOption", PlanOutcome::INVALID_OPTION,
+                [](auto& g) { g.options.solver_options = {"colour=red"}; }, kNobody, "colour"},
+        BadGoal{"SplitText", PlanOutcome::INVALID_SPLIT, [](auto& g) { g.options.split = "8q"; },
+                kNobody, "8q"},
+        BadGoal{"SplitRatios", PlanOutcome::INVALID_SPLIT,
+                [](auto& g) { g.options.split = "t(0.5,0.6)"; }, kNobody, "t(0.5,0.6)"},
+        BadGoal{"SplitOption", PlanOutcome::INVALID_OPTION,
+                [](auto& g) { g.options.split = "2t", g.options.split_options = {"colour=red"}; },
+                kNobody, "colour"},
+        BadGoal{"Objective", PlanOutcome::INVALID_OPTION,
+                [](auto& g) { g.options.objective = "joy"; }, kNobody, "joy"},
+        BadGoal{"Suboptimality", PlanOutcome::INVALID_OPTION,
+                [](auto& g) { g.options.suboptimality = 0.5; }, kNobody, "0.5"},
+        BadGoal{"TimeLimit", PlanOutcome::INVALID_OPTION,
+                [](auto& g) { g.options.time_limit = kNan; }, kNobody, "time_limit"},
+        BadGoal{"RobotRadius", PlanOutcome::INVALID_OPTION,
+                [](auto& g) { g.options.robot_radius = 0.3; }, kNobody, "robot_radius 0.3"},
+        BadGoal{"CellSize", PlanOutcome::INVALID_OPTION, [](auto& g) { g.options.cell_size = 2; },
+                kNobody, "cell_size 2"},
+        BadGoal{"UnknownSpace", PlanOutcome::INVALID_OPTION,
+                [](auto& g) { g.options.unknown_space = 9; }, kNobody, "unknown_space 9"},
+        BadGoal{"Threshold", PlanOutcome::INVALID_OPTION,
+                [](auto& g) { g.options.occupied_threshold = 120; }, kNobody, "120"},
+        BadGoal{"StepDuration", PlanOutcome::INVALID_OPTION,
+                [](auto& g) { g.options.step_duration = -1; }, kNobody, "step_duration"}),
+    [](const auto& info) { return info.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    Robots, BadGoalTest,
+    ::testing::Values(BadGoal{"None", PlanOutcome::NO_ROBOTS, [](auto& g) { g.robots.clear(); },
+                              kNobody, "no robots"},
+                      BadGoal{"SameId",
+                              PlanOutcome::DUPLICATE_ROBOT_ID,
+                              [](auto& g) { g.robots[1].robot_id = "left"; },
+                              {"left", "left"},
+                              "'left'"},
+                      BadGoal{
+                          "IdOfAnIndex",
+                          PlanOutcome::DUPLICATE_ROBOT_ID,
+                          [](auto& g) { g.robots[0].robot_id = "", g.robots[1].robot_id = "0"; },
+                          {"0", "0"},
+                          "'0'"},
+                      BadGoal{"Outside",
+                              PlanOutcome::OUTSIDE_MAP,
+                              [](auto& g) { g.robots[1].goal = poseAt(6.5, 0.5); },
+                              {"right"},
+                              "'right'"},
+                      BadGoal{"Blocked",
+                              PlanOutcome::BLOCKED_CELL,
+                              [](auto& g) { g.map.data[12] = 100; },
+                              {"left"},
+                              "(0,2)"},
+                      BadGoal{"Unknown",
+                              PlanOutcome::BLOCKED_CELL,
+                              [](auto& g) { g.map.data[12] = -1; },
+                              {"left"},
+                              "(0,2)"},
+                      BadGoal{"SameStart",
+                              PlanOutcome::DUPLICATE_START,
+                              [](auto& g) { g.robots[1].start = g.robots[0].start; },
+                              {"left", "right"},
+                              "start"},
+                      BadGoal{"SameGoal",
+                              PlanOutcome::DUPLICATE_GOAL,
+                              [](auto& g) { g.robots[1].goal = g.robots[0].goal; },
+                              {"left", "right"},
+                              "goal"},
+                      BadGoal{"OneCell",
+                              PlanOutcome::UNPLACEABLE,
+                              [](auto& g) { g.robots[1].start = poseAt(0.9, 2.1); },
+                              {"left", "right"},
+                              "planning cell (0,2)"},
+                      BadGoal{"CutOff",
+                              PlanOutcome::UNREACHABLE_GOAL,
+                              [](auto& g) {
+                                for (int row = 0; row < 6; ++row) g.map.data[row * 6U + 3] = 100;
+                              },
+                              {"left", "right"},
+                              "no free way"},
+                      BadGoal{"NanPose",
+                              PlanOutcome::INVALID_POSE,
+                              [](auto& g) { g.robots[0].start.pose.position.x = kNan; },
+                              {"left"},
+                              "finite"},
+                      BadGoal{"NoQuaternion",
+                              PlanOutcome::INVALID_POSE,
+                              [](auto& g) { g.robots[1].goal.pose.orientation.w = 0; },
+                              {"right"},
+                              "quaternion"},
+                      BadGoal{"NoFrame",
+                              PlanOutcome::TRANSFORM_FAILED,
+                              [](auto& g) { g.robots[1].start.header.frame_id = "moon"; },
+                              {"right"},
+                              "'moon'"},
+                      BadGoal{"Several",
+                              PlanOutcome::OUTSIDE_MAP,
+                              [](auto& g) {
+                                g.robots[0].start = poseAt(-1, 0);
+                                g.robots[1].goal = poseAt(kNan, 0);
+                              },
+                              {"left", "right"},
+                              "1 more"}),
+    [](const auto& info) { return info.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    Searches, BadGoalTest,
+    ::testing::Values(BadGoal{"Timeout", PlanOutcome::TIMEOUT,
+                              [](auto& g) { g = hardGoal(), g.options.time_limit = 0.5; }, kNobody,
+                              "time"},
+                      BadGoal{"NoTime", PlanOutcome::TIMEOUT,
+                              [](auto& g) { g.options.time_limit = -1; }, kNobody, "time"}),
+    [](const auto& info) { return info.param.name; });
+
+TEST_F(PlannerNode, StopsACancelledSearchAtOnce) {
+  TrackedGoal goal(client_, hardGoal());
+  ASSERT_TRUE(goal.waitActive());
+  ros::WallDuration(1.0).sleep();
+  const double cancelled_at = TrackedGoal::now();
+  goal.cancel();
+  ASSERT_TRUE(goal.waitDone());
+  EXPECT_EQ(goal.state(), "PREEMPTED");
+  EXPECT_EQ(goal.result().outcome, PlanOutcome::CANCELLED);
+  EXPECT_LT(goal.doneAt() - cancelled_at, 0.2);
+  // 5 Hz for a second.
+  EXPECT_GE(goal.feedback().size(), 5U);
+  EXPECT_GT(goal.feedback().back().elapsed, 0.7);
+  EXPECT_EQ(goal.timesDone(), 1);
+  expectServing();
+}
+
+TEST_F(PlannerNode, MeasuresTheTimeLimitFromTheReception) {
+  PlanPathsGoal message = hardGoal();
+  message.options.time_limit = 1;
+  const double sent_at = TrackedGoal::now();
+  const TrackedGoal goal = runGoal(client_, message);
+  EXPECT_EQ(goal.result().outcome, PlanOutcome::TIMEOUT);
+  EXPECT_NEAR(goal.doneAt() - sent_at, 1, 0.3);
+}
+
+TEST_F(PlannerNode, ServesOtherGoalsBesideALongOne) {
+  TrackedGoal slow(client_, hardGoal());
+  ASSERT_TRUE(slow.waitActive());
+  for (int i = 0; i < 3; ++i) expectServing();
+  EXPECT_EQ(slow.timesDone(), 0);
+  slow.cancel();
+  ASSERT_TRUE(slow.waitDone());
+  EXPECT_EQ(slow.state(), "PREEMPTED");
+}
+
+TEST_F(PlannerNode, SurvivesManyGoalsAtOnce) {
+  std::vector<std::unique_ptr<TrackedGoal>> goals;
+  for (int i = 0; i < 40; ++i) {
+    goals.push_back(std::make_unique<TrackedGoal>(client_, smallGoal()));
+  }
+  int planned = 0;
+  for (const auto& goal : goals) {
+    ASSERT_TRUE(goal->waitDone());
+    const std::int32_t outcome = goal->result().outcome;
+    if (outcome == PlanOutcome::SUCCEEDED) ++planned;
+    EXPECT_EQ(goal->state(), outcome == PlanOutcome::SUCCEEDED ? "SUCCEEDED" : "REJECTED");
+    EXPECT_TRUE(outcome == PlanOutcome::SUCCEEDED || outcome == PlanOutcome::SERVER_BUSY);
+  }
+  EXPECT_GE(planned, 8);
+  expectServing();
+}
+
+TEST_F(PlannerNode, ValidatesPlansOfOthers) {
+  ros::ServiceClient service = node_.serviceClient<ValidatePlan>("split_mapf/validate_plan");
+  ValidatePlan call;
+  call.request.map = smallGoal().map;
+  call.request.plan = runGoal(client_, smallGoal()).result().plan;
+  ASSERT_TRUE(service.call(call));
+  EXPECT_TRUE(call.response.valid) << ::testing::PrintToString(call.response.violations);
+
+  // Both in one row, towards each other.
+  for (std::uint32_t& cell : call.request.plan.paths[1].cells) cell = cell % 6 + 12;
+  ASSERT_TRUE(service.call(call));
+  EXPECT_FALSE(call.response.valid);
+  ASSERT_FALSE(call.response.violations.empty());
+  EXPECT_NE(call.response.violations.front().find("swap"), std::string::npos)
+      << call.response.violations.front();
+
+  call.request.map.data.clear();
+  ASSERT_TRUE(service.call(call));
+  EXPECT_FALSE(call.response.valid);
+}
+
+TEST_F(PlannerNode, ListsItsSolvers) {
+  ros::ServiceClient service = node_.serviceClient<ListSolvers>("split_mapf/list_solvers");
+  ListSolvers call;
+  ASSERT_TRUE(service.call(call));
+  const std::vector<std::string>& names = call.response.names;
+  EXPECT_EQ(std::count(names.begin(), names.end(), "ecbs"), 1);
+  EXPECT_EQ(std::count(names.begin(), names.end(), "prioritized"), 1);
+  ASSERT_EQ(call.response.descriptions.size(), names.size());
+  for (const std::string& description : call.response.descriptions) {
+    EXPECT_FALSE(description.empty());
+  }
+}
+
+}  // namespace
+}  // namespace split_mapf
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "plan_server_rostest");
+  ros::AsyncSpinner spinner(2);
+  ros::NodeHandle node;  // keeps ROS started between two tests
+  spinner.start();
+  return RUN_ALL_TESTS();
+}

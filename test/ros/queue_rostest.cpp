@@ -1,0 +1,271 @@
+// The plan server with solvers that wait, fail and throw on demand.
+
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <split_mapf/PlanOutcome.h>
+
+#include <atomic>
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <thread>
+
+#include "ros/goal_messages.h"
+#include "ros/tracked_goal.h"
+#include "split_mapf/ros/plan_server.h"
+#include "split_mapf/solver/ecbs.h"
+#include "support/fake_solver.h"
+
+namespace split_mapf {
+namespace {
+
+using test::smallGoal;
+using test::TrackedGoal;
+
+SolveResult ended(Termination termination) {
+  SolveResult result;
+  result.termination = termination;
+  return result;
+}
+
+SolverRegistry fakeSolvers() {
+  SolverRegistry solvers;
+  solvers.add(EcbsSolver::info());
+  solvers.add(test::fakeSolver("wait", test::waitForDeadline));
+  solvers.add(test::fakeSolver("throw", [](const Instance&, const Deadline&) -> SolveResult {
+    throw std::runtime_error("a broken invariant");
+  }));
+  solvers.add(test::fakeSolver("throw_number", [](const Instance&, const Deadline&) -> SolveResult {
+    throw 42;  // NOLINT: whatever a library may throw
+  }));
+  solvers.add(test::fakeSolver(
+      "exhaust", [](const Instance&, const Deadline&) -> SolveResult { throw std::bad_alloc(); }));
+  solvers.add(test::fakeSolver("give_up", [](const Instance&, const Deadline&) {
+    return ended(Termination::kNoPlanFound);
+  }));
+  solvers.add(test::fakeSolver(
+      "prove", [](const Instance&, const Deadline&) { return ended(Termination::kUnsolvable); }));
+  return solvers;
+}
+
+/// A whole plan server in this process.
+struct Server {
+  explicit Server(QueueLimits limits)
+      : planner(solvers, executor),
+        maps(node, ""),
+        goals(planner, options, maps, transformer),
+        publisher(node, private_node, false),
+        server(private_node, goals, publisher, limits) {}
+
+  ros::NodeHandle node;
+  ros::NodeHandle private_node{"~"};
+  ServerOptions options;
+  SolverRegistry solvers = fakeSolvers();
+  Executor executor{1};
+  Planner planner;
+  MapSource maps;
+  PoseTransformer transformer;
+  GoalPlanner goals;
+  PlanPublisher publisher;
+  PlanServer server;
+};
+
+PlanPathsGoal goalFor(const std::string& solver) {
+  PlanPathsGoal goal = smallGoal();
+  goal.options.solver = solver;
+  return goal;
+}
+
+class Queue : public ::testing::Test {
+ protected:
+  void start(QueueLimits limits) {
+    server_ = std::make_unique<Server>(limits);
+    client_ = std::make_unique<test::PlanActionClient>("~plan_paths");
+    ASSERT_TRUE(client_->waitForActionServerToStart(ros::Duration(20)));
+  }
+  std::unique_ptr<TrackedGoal> send(const std::string& solver) {
+    return std::make_unique<TrackedGoal>(*client_, goalFor(solver));
+  }
+  /// Waits until the server has this many goals that run and wait.
+  void expectGoals(std::uint32_t running, std::uint32_t queued) {
+    PlanServerStatus status;
+    for (int i = 0; i < 200; ++i) {
+      status = server_->server.status();
+      if (status.running == running && status.queued == queued) return;
+      ros::WallDuration(0.01).sleep();
+    }
+    ADD_FAILURE() << status.running << " run, " << status.queued << " wait; expected " << running
+                  << " and " << queued;
+  }
+  static void expectEnd(TrackedGoal& goal, const std::string& state, std::int32_t outcome) {
+    ASSERT_TRUE(goal.waitDone());
+    EXPECT_EQ(goal.state(), state) << goal.result().message;
+    EXPECT_EQ(goal.result().outcome, outcome) << goal.result().message;
+    EXPECT_FALSE(goal.result().message.empty());
+    EXPECT_EQ(goal.timesDone(), 1);
+  }
+
+  std::unique_ptr<Server> server_;
+  std::unique_ptr<test::PlanActionClient> client_;
+};
+
+TEST_F(Queue, EndsEveryKindOfFailureInItsOutcome) {
+  start({8, 1});
+  const std::vector<std::pair<std::string, std::int32_t>> outcomes = {
+      {"throw", PlanOutcome::INTERNAL_ERROR}, {"throw_number", PlanOutcome::INTERNAL_ERROR},
+      {"exhaust", PlanOutcome::MEMORY_LIMIT}, {"give_up", PlanOutcome::NO_PLAN_FOUND},
+      {"prove", PlanOutcome::UNSOLVABLE},
+  };
+  for (const auto& [solver, outcome] : outcomes) {
+    const auto goal = send(solver);
+    expectEnd(*goal, "ABORTED", outcome);
+    EXPECT_EQ(server_->server.status().last_outcome, toString(static_cast<Outcome>(outcome)));
+    const auto next = send("ecbs");
+    expectEnd(*next, "SUCCEEDED", PlanOutcome::SUCCEEDED);
+  }
+}
+
+TEST_F(Queue, RecallsACancelledGoalThatWaits) {
+  start({8, 1});
+  const auto running = send("wait");
+  ASSERT_TRUE(running->waitActive());
+  const auto waiting = send("wait");
+  expectGoals(1, 1);
+  ros::WallDuration(0.5).sleep();
+  const double cancelled_at = TrackedGoal::now();
+  waiting->cancel();
+  expectEnd(*waiting, "RECALLED", PlanOutcome::CANCELLED);
+  EXPECT_LT(waiting->doneAt() - cancelled_at, 0.2);
+  for (const PlanPathsFeedback& feedback : waiting->feedback()) {
+    EXPECT_EQ(feedback.stage, "queued");
+  }
+  EXPECT_GE(waiting->feedback().size(), 2U);
+  EXPECT_EQ(running->timesDone(), 0);
+  running->cancel();
+  expectEnd(*running, "PREEMPTED", PlanOutcome::CANCELLED);
+}
+
+TEST_F(Queue, RejectsAGoalTooMany) {
+  start({2, 1});
+  const auto running = send("wait");
+  ASSERT_TRUE(running->waitActive());
+  const auto waiting = send("ecbs");
+  expectGoals(1, 1);
+  const auto surplus = send("ecbs");
+  expectEnd(*surplus, "REJECTED", PlanOutcome::SERVER_BUSY);
+  EXPECT_NE(surplus->result().message.find("max_queued_goals"), std::string::npos);
+  running->cancel();
+  expectEnd(*running, "PREEMPTED", PlanOutcome::CANCELLED);
+  expectEnd(*waiting, "SUCCEEDED", PlanOutcome::SUCCEEDED);
+  const auto next = send("ecbs");
+  expectEnd(*next, "SUCCEEDED", PlanOutcome::SUCCEEDED);
+}
+
+TEST_F(Queue, TimesAGoalOutThatWaitsTooLong) {
+  start({8, 1});
+  const auto running = send("wait");
+  ASSERT_TRUE(running->waitActive());
+  PlanPathsGoal message = goalFor("ecbs");
+  message.options.time_limit = 0.4;
+  const double sent_at = TrackedGoal::now();
+  TrackedGoal waiting(*client_, message);
+  expectEnd(waiting, "ABORTED", PlanOutcome::TIMEOUT);
+  EXPECT_NEAR(waiting.doneAt() - sent_at, 0.4, 0.2);
+  running->cancel();
+  expectEnd(*running, "PREEMPTED", PlanOutcome::CANCELLED);
+}
+
+TEST_F(Queue, RefusesABadGoalAtOnceThoughOthersWait) {
+  start({8, 1});
+  const auto running = send("wait");
+  ASSERT_TRUE(running->waitActive());
+  const auto bad = send("oracle");
+  expectEnd(*bad, "ABORTED", PlanOutcome::UNKNOWN_SOLVER);
+  EXPECT_EQ(running->timesDone(), 0);
+  running->cancel();
+  expectEnd(*running, "PREEMPTED", PlanOutcome::CANCELLED);
+}
+
+// The worker is busy with the first goal; the second one cannot even begin.
+TEST_F(Queue, CancelsAGoalWhoseWorkersServeAnother) {
+  start({8, 2});
+  const auto first = send("wait");
+  ASSERT_TRUE(first->waitActive());
+  ros::WallDuration(0.3).sleep();
+  const auto second = send("ecbs");
+  ASSERT_TRUE(second->waitActive());
+  ros::WallDuration(0.3).sleep();
+  EXPECT_EQ(second->timesDone(), 0);
+  const double cancelled_at = TrackedGoal::now();
+  second->cancel();
+  expectEnd(*second, "PREEMPTED", PlanOutcome::CANCELLED);
+  EXPECT_LT(second->doneAt() - cancelled_at, 0.2);
+  EXPECT_EQ(first->timesDone(), 0);
+  first->cancel();
+  expectEnd(*first, "PREEMPTED", PlanOutcome::CANCELLED);
+}
+
+TEST_F(Queue, CancelsAllGoalsAtOnce) {
+  start({8, 1});
+  std::vector<std::unique_ptr<TrackedGoal>> goals;
+  for (int i = 0; i < 5; ++i) goals.push_back(send("wait"));
+  expectGoals(1, 4);
+  client_->cancelAllGoals();
+  for (const auto& goal : goals) {
+    ASSERT_TRUE(goal->waitDone(2));
+    EXPECT_TRUE(goal->state() == "PREEMPTED" || goal->state() == "RECALLED") << goal->state();
+    EXPECT_EQ(goal->result().outcome, PlanOutcome::CANCELLED);
+  }
+  expectGoals(0, 0);
+}
+
+TEST_F(Queue, GivesEveryGoalAnEndWhenItShutsDown) {
+  start({8, 1});
+  const auto running = send("wait");
+  ASSERT_TRUE(running->waitActive());
+  const auto waiting = send("wait");
+  expectGoals(1, 1);
+  const double told_at = TrackedGoal::now();
+  server_->server.shutdown();
+  EXPECT_LT(TrackedGoal::now() - told_at, 0.5);
+  expectEnd(*running, "PREEMPTED", PlanOutcome::CANCELLED);
+  expectEnd(*waiting, "RECALLED", PlanOutcome::CANCELLED);
+  const auto late = send("ecbs");
+  expectEnd(*late, "REJECTED", PlanOutcome::SERVER_BUSY);
+}
+
+// A goal that is cancelled between finding its plan and saying so carries the plan.
+TEST_F(Queue, CarriesThePlanOfACancelledGoal) {
+  Server* server = nullptr;
+  std::unique_ptr<TrackedGoal> goal;
+  std::atomic<bool> cancelled{false};
+  start({8, 1});
+  server = server_.get();
+  const SolverInfo ecbs = EcbsSolver::info();
+  server->solvers.add(
+      test::fakeSolver("slow", [&](const Instance& instance, const Deadline& deadline) {
+        SolveResult result = ecbs.make(SolverOptions())->solve(instance, Deadline());
+        while (!deadline.stopRequested()) std::this_thread::yield();
+        cancelled = true;
+        return result;
+      }));
+  goal = send("slow");
+  ASSERT_TRUE(goal->waitActive());
+  goal->cancel();
+  expectEnd(*goal, "PREEMPTED", PlanOutcome::CANCELLED);
+  EXPECT_TRUE(cancelled);
+  ASSERT_EQ(goal->result().plan.paths.size(), 2U);
+  EXPECT_EQ(goal->result().plan.makespan, 5U);
+}
+
+}  // namespace
+}  // namespace split_mapf
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "queue_rostest");
+  ros::AsyncSpinner spinner(4);
+  ros::NodeHandle node;  // keeps ROS started between two tests
+  spinner.start();
+  return RUN_ALL_TESTS();
+}
