@@ -4,14 +4,17 @@
 
 namespace split_mapf {
 
-DistanceTable::DistanceTable(const Graph& graph, Vertex goal, DistanceExtent extent)
-    : goal_(goal), narrow_(graph.size(), kNarrowUnknown) {
-  narrow_[goal] = 0;
+DistanceTable::DistanceTable(const Graph& graph, Vertex goal, DistanceExtent extent) : goal_(goal) {
   if (extent == DistanceExtent::kAll) {
+    narrow_.assign(graph.size(), kNarrowUnknown);
+    narrow_[goal] = 0;
     searchAll(graph);
     return;
   }
   graph_ = &graph;
+  narrow_.assign(kPageSize, kNarrowUnknown);
+  page_of_.assign((graph.size() >> kPageBits) + 1, 0);
+  settle(goal, 0);
   queue_.push_back(goal);
 }
 
@@ -49,34 +52,43 @@ void DistanceTable::searchWide(const Graph& graph, std::vector<Vertex>& queue, s
 std::uint32_t DistanceTable::search(Vertex v) const {
   while (head_ < queue_.size()) {
     const Vertex from = queue_[head_++];
-    const std::uint32_t next = (wide_.empty() ? narrow_[from] : wide_[from]) + 1U;
-    std::uint32_t found = kUnreachable;
+    const std::uint32_t next = (wide_.empty() ? narrow_[placeOf(from)] : wide_[from]) + 1U;
+    bool met = false;
     for (const Vertex u : graph_->neighbours(from)) {
-      const bool known = wide_.empty() ? narrow_[u] != kNarrowUnknown : wide_[u] != kUnreachable;
+      const bool known =
+          wide_.empty() ? narrow_[placeOf(u)] != kNarrowUnknown : wide_[u] != kUnreachable;
       if (known) continue;
-      if (wide_.empty() && next == kNarrowUnknown) widen();
       settle(u, next);
       queue_.push_back(u);
-      if (u == v) found = next;
+      met = met || u == v;
     }
-    if (found != kUnreachable) return found;
+    if (met) return next;
   }
   return kUnreachable;
 }
 
 void DistanceTable::settle(Vertex v, std::uint32_t distance) const {
-  if (wide_.empty()) {
-    narrow_[v] = static_cast<std::uint16_t>(distance);
-  } else {
+  if (wide_.empty() && distance == kNarrowUnknown) widen();
+  if (!wide_.empty()) {
     wide_[v] = distance;
+    return;
   }
+  std::uint32_t& page = page_of_[v >> kPageBits];
+  if (page == 0) {
+    page = static_cast<std::uint32_t>(narrow_.size() / kPageSize);
+    narrow_.resize(narrow_.size() + kPageSize, kNarrowUnknown);
+  }
+  narrow_[placeOf(v)] = static_cast<std::uint16_t>(distance);
 }
 
 void DistanceTable::widen() const {
-  wide_.resize(narrow_.size());
-  for (std::size_t v = 0; v < narrow_.size(); ++v) {
-    wide_[v] = narrow_[v] == kNarrowUnknown ? kUnreachable : narrow_[v];
+  const std::size_t vertices = graph_ == nullptr ? narrow_.size() : graph_->size();
+  std::vector<std::uint32_t> wide(vertices);
+  for (Vertex v = 0; v < vertices; ++v) {
+    const std::uint16_t d = narrow_[graph_ == nullptr ? v : placeOf(v)];
+    wide[v] = d == kNarrowUnknown ? kUnreachable : d;
   }
+  wide_ = std::move(wide);
   narrow_.clear();
   narrow_.shrink_to_fit();
 }

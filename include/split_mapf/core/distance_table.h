@@ -18,8 +18,8 @@ enum class DistanceExtent {
 /// Exact shortest distances [steps] from every vertex to one goal, by breadth-first search.
 /// Entries take 16 bits while every distance fits, 32 bits otherwise. A table of kAll is safe to
 /// read from several threads; one of kOnDemand grows while it is read and belongs to one thread at
-/// a time. Cost: O(V + E) time (kOnDemand: for the part within the greatest distance asked for), 2
-/// or 4 bytes a vertex.
+/// a time. Cost: O(V + E) time and 2 or 4 bytes a vertex; kOnDemand pays only for the part within
+/// the greatest distance asked for.
 class DistanceTable {
  public:
   /// The distance of a vertex that cannot reach the goal.
@@ -30,17 +30,21 @@ class DistanceTable {
 
   Vertex goal() const { return goal_; }
   std::uint32_t operator()(Vertex v) const {
-    if (wide_.empty()) {
-      const std::uint16_t d = narrow_[v];
-      return d != kNarrowUnknown ? d : search(v);
-    }
-    return wide_[v] != kUnreachable ? wide_[v] : search(v);
+    if (!wide_.empty()) return wide_[v] != kUnreachable ? wide_[v] : search(v);
+    const std::uint16_t d = graph_ == nullptr ? narrow_[v] : narrow_[placeOf(v)];
+    return d != kNarrowUnknown ? d : search(v);
   }
   bool isWide() const { return !wide_.empty(); }
 
  private:
   static constexpr std::uint16_t kNarrowUnknown = 0xffffU;
 
+  static constexpr std::uint32_t kPageBits = 6;
+  static constexpr std::uint32_t kPageSize = 1U << kPageBits;
+
+  std::size_t placeOf(Vertex v) const {
+    return std::size_t{page_of_[v >> kPageBits]} * kPageSize + v % kPageSize;
+  }
   void searchAll(const Graph& graph);
   /// Goes on with 32 bits from a queue whose distances outgrow 16.
   void searchWide(const Graph& graph, std::vector<Vertex>& queue, std::size_t head,
@@ -51,12 +55,14 @@ class DistanceTable {
   void widen() const;
 
   Vertex goal_;
-  // What a search on demand changes. The queue is empty when the search has ended.
+  // What a search on demand changes; all is known when its head meets the queue's end. Its 16 bit
+  // distances lie in pages, taken when a vertex of theirs is met; page 0 is the unknown one.
   mutable std::vector<std::uint16_t> narrow_;
+  mutable std::vector<std::uint32_t> page_of_;
   mutable std::vector<std::uint32_t> wide_;
   mutable std::vector<Vertex> queue_;
   mutable std::size_t head_ = 0;
-  const Graph* graph_ = nullptr;
+  const Graph* graph_ = nullptr;  // null: everything was searched at once
 };
 
 /// One distance table a goal, each computed when first asked for and kept from then on.
