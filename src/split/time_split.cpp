@@ -109,7 +109,7 @@ std::optional<Decomposition> bisect(const Instance& instance, TimeSplitOptions o
                       std::to_string(pieces));
   }
   options.ratios = {0.5, 0.5};
-  const auto halves = splitTime(instance, options, deadline);
+  std::optional<Decomposition> halves = splitTime(instance, options, deadline);
   if (!halves || pieces == 2) return halves;
   options.ratios.assign(pieces / 2, 2.0 / static_cast<double>(pieces));
   std::vector<Decomposition> leaves;
