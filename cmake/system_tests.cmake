@@ -5,3 +5,9 @@ if(SPLIT_MAPF_ROS)
   add_test(NAME downstream
     COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test/downstream/downstream_test.sh ${CMAKE_BINARY_DIR})
 endif()
+# The system's python, without other packages: it is there wherever ROS is.
+find_program(SPLIT_MAPF_PYTHON python3 HINTS /usr/bin)
+add_test(NAME tool
+  COMMAND ${CMAKE_COMMAND} -E env SPLIT_MAPF_COMMAND=$<TARGET_FILE:split_mapf>
+    ${SPLIT_MAPF_PYTHON} -B -m unittest discover -s ${CMAKE_CURRENT_SOURCE_DIR}/test/tool -p *_test.py)
+set_tests_properties(tool PROPERTIES TIMEOUT 600)

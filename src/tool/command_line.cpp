@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <limits>
 #include <locale>
 #include <sstream>
 
@@ -114,10 +113,9 @@ std::uint64_t CommandLine::wholeNumber(const std::string& name, std::uint64_t fa
   stream.imbue(std::locale::classic());
   const bool digits = value.find_first_not_of("0123456789") == std::string::npos;
   if (digits && stream >> number && number >= least && number <= most) return number;
-  const bool bounded = most < std::numeric_limits<std::uint64_t>::max();
   throw OptionError("option --" + name + ": '" + value +
                     "' was given, a whole number of at least " + std::to_string(least) +
-                    (bounded ? " and at most " + std::to_string(most) : "") + " is expected");
+                    " and at most " + std::to_string(most) + " is expected");
 }
 
 double CommandLine::number(const std::string& name, double fallback, double least) const {

@@ -1,0 +1,118 @@
+"""generate -> plan -> validate -> render, and what validate and render say of broken plans."""
+
+import json
+import struct
+import unittest
+
+from command import CommandTest
+
+
+class RoundTripTest(CommandTest):
+    def test_every_kind_of_map(self):
+        for kind in ["random", "warehouse", "rooms"]:
+            self.generate(kind, "--type", kind, "--width", 40, "--height", 32, "--agents", 30,
+                          "--seed", 4)
+            plan = self.plan(0, kind, "--split", "2t")
+            text = self.expect(0, "validate", *self.files(kind), "--plan", kind + ".json").stdout
+            self.assertEqual(text, f"valid: 30 robots, makespan {plan['makespan']}, "
+                             f"sum of costs {plan['sum_of_costs']}\n")
+            for scale in [10, 20]:
+                width, height = self.picture_size(kind, scale)
+                self.assertEqual((width // scale, height // scale), (40, 32))
+
+    def picture_size(self, kind, scale):
+        name = f"{kind}-{scale}.png"
+        text = self.expect(0, "render", *self.files(kind), "--plan", kind + ".json",
+                           "--output", name, "--scale", scale).stdout
+        size = self.png_size(name)
+        self.assertEqual(text, f"{name}: {size[0]}x{size[1]} pixels, 30 robots\n")
+        return size
+
+    def png_size(self, name):
+        with open(self.path(name), "rb") as file:
+            head = file.read(24)
+        self.assertEqual(head[:8], b"\x89PNG\r\n\x1a\n")
+        return struct.unpack(">II", head[16:24])
+
+    def test_the_same_seed_generates_the_same_files(self):
+        texts = []
+        for name, seed in [("a", 7), ("b", 7), ("c", 8)]:
+            self.generate(name, "--agents", 10, "--seed", seed)
+            with open(self.path(name + ".map")) as file:
+                grid = file.read()
+            with open(self.path(name + ".scen")) as file:
+                texts.append(grid + file.read().replace(name + ".map", "x.map"))
+        self.assertEqual(texts[0], texts[1])
+        self.assertNotEqual(texts[0], texts[2])
+
+    def test_generated_maps_have_the_size_and_density_asked_for(self):
+        self.generate("g", "--width", 30, "--height", 20, "--density", 0.25, "--agents", 5)
+        with open(self.path("g.map")) as file:
+            rows = file.read().split("map\n", 1)[1].split()
+        self.assertEqual((len(rows), {len(row) for row in rows}), (20, {30}))
+        self.assertEqual(sum(row.count("@") for row in rows), 150)
+        with open(self.path("g.scen")) as file:
+            self.assertEqual(len(file.read().splitlines()), 1 + 5)
+
+
+class BrokenPlanTest(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.write_problem("p", ["...", ".@.", "..."], [((0, 0), (2, 0)), ((0, 2), (2, 2))])
+
+    def write_plan(self, *paths):
+        self.write("plan.json", json.dumps({"paths": paths}))
+
+    def violations(self, *paths):
+        self.write_plan(*paths)
+        result = self.expect(8, "validate", *self.files("p"), "--plan", "plan.json")
+        *lines, last = result.stdout.splitlines()
+        count = len(lines)
+        self.assertEqual(last, f"not valid: {count} violation" + ("" if count == 1 else "s"))
+        return lines
+
+    def test_every_violation_is_listed(self):
+        lines = self.violations([[1, 0], [1, 1], [2, 0]],
+                                [[0, 2], [0, 1], [0, 0], [1, 0], [2, 0], [2, 0]])
+        self.assertEqual(len(lines), 6, lines)
+        for line, parts in zip(lines, [["robot 0", "start", "(0,0)"], ["robot 0", "(1,1)"],
+                                       ["robot 0", "jump"], ["robot 1", "goal", "(2,2)"],
+                                       ["robots 0 and 1", "(2,0)", "step 4"],
+                                       ["robots 0 and 1", "(2,0)", "step 5"]]):
+            for part in parts:
+                self.assertIn(part, line)
+
+    def test_cells_outside_the_map(self):
+        lines = self.violations([[0, 0], [0, -1], [1, -1], [1, 0], [2, 0]],
+                                [[0, 2], [1, 2], [2, 2]])
+        self.assertEqual(len(lines), 2, lines)
+        self.assertIn("(0,-1)", lines[0])
+
+    def test_waiting_at_the_goal_is_valid_and_costs_nothing(self):
+        self.write_plan([[0, 0], [1, 0], [2, 0], [2, 0], [2, 0]], [[0, 2], [1, 2], [2, 2]])
+        result = self.expect(0, "validate", *self.files("p"), "--plan", "plan.json")
+        self.assertEqual(result.stdout, "valid: 2 robots, makespan 2, sum of costs 4\n")
+
+    def test_a_plan_for_fewer_robots_than_the_scenario_has(self):
+        self.write_plan([[0, 0], [1, 0], [2, 0]])
+        result = self.expect(0, "validate", *self.files("p"), "--plan", "plan.json")
+        self.assertEqual(result.stdout, "valid: 1 robot, makespan 2, sum of costs 2\n")
+
+    def test_a_plan_for_more_robots_than_the_scenario_has(self):
+        self.write_plan([[0, 0]], [[0, 2]], [[1, 2]])
+        self.expect_refusal("p.scen:4", "validate", *self.files("p"), "--plan", "plan.json")
+
+    def test_render_refuses_the_plan_of_another_scenario(self):
+        self.write_plan([[0, 0], [1, 0]], [[0, 2], [1, 2], [2, 2]])
+        self.expect_refusal(["robot 0", "goal", "(1,0)", "(2,0)"], "render", *self.files("p"),
+                            "--plan", "plan.json", "--output", "x.png")
+
+    def test_render_refuses_scales_out_of_range(self):
+        self.write_plan([[0, 0], [1, 0], [2, 0]])
+        for scale in ["0", "257", "x"]:
+            self.expect_refusal(["--scale", f"'{scale}'"], "render", *self.files("p"),
+                                "--plan", "plan.json", "--output", "x.png", "--scale", scale)
+
+
+if __name__ == "__main__":
+    unittest.main()
