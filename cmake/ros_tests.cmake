@@ -17,7 +17,5 @@ foreach(name plan_server queue)
 endforeach()
 
 foreach(name client replay recording lifecycle)
-  if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/test/ros/${name}.test)
-  add_rostest(test/ros/${name}.test DEPENDENCIES planner_node replay_node)
-  endif()
+  add_rostest(test/ros/${name}.test DEPENDENCIES planner_node replay_node split_mapf)
 endforeach()

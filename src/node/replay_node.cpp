@@ -28,6 +28,8 @@ void run() {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "replay", ros::init_options::NoSigintHandler);
+  // Keeps ROS, and with it the log, alive until an error has been told.
+  const ros::NodeHandle node;
   try {
     run();
   } catch (const std::exception& error) {

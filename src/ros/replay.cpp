@@ -78,7 +78,7 @@ Replay::Replay(ros::NodeHandle node, ros::NodeHandle private_node, const ReplayO
 void Replay::takePlan(const MultiRobotPlan& plan) {
   const std::lock_guard<std::mutex> lock(mutex_);
   try {
-    markers_.emplace(plan, options_.style);
+    markers_ = PlanMarkers(plan, options_.style);
   } catch (const std::exception& error) {
     // The plan that is shown, if any, goes on.
     ROS_ERROR("a plan that cannot be shown: %s", error.what());

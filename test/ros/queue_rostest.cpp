@@ -236,24 +236,21 @@ TEST_F(Queue, GivesEveryGoalAnEndWhenItShutsDown) {
 
 // A goal that is cancelled between finding its plan and saying so carries the plan.
 TEST_F(Queue, CarriesThePlanOfACancelledGoal) {
-  Server* server = nullptr;
-  std::unique_ptr<TrackedGoal> goal;
-  std::atomic<bool> cancelled{false};
   start({8, 1});
-  server = server_.get();
+  std::atomic<bool> found{false};
   const SolverInfo ecbs = EcbsSolver::info();
-  server->solvers.add(
+  server_->solvers.add(
       test::fakeSolver("slow", [&](const Instance& instance, const Deadline& deadline) {
         SolveResult result = ecbs.make(SolverOptions())->solve(instance, Deadline());
+        found = true;
         while (!deadline.stopRequested()) std::this_thread::yield();
-        cancelled = true;
         return result;
       }));
-  goal = send("slow");
-  ASSERT_TRUE(goal->waitActive());
+  const auto goal = send("slow");
+  for (int i = 0; i < 500 && !found; ++i) ros::WallDuration(0.01).sleep();
   goal->cancel();
   expectEnd(*goal, "PREEMPTED", PlanOutcome::CANCELLED);
-  EXPECT_TRUE(cancelled);
+  EXPECT_TRUE(found);
   ASSERT_EQ(goal->result().plan.paths.size(), 2U);
   EXPECT_EQ(goal->result().plan.makespan, 5U);
 }

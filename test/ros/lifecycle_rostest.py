@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+"""How the planner node starts and ends: parameters, signals, rosnode kill, diagnostics."""
+
+import os
+import signal
+import time
+import unittest
+
+import rosnode
+import rospy
+import rosunit
+from diagnostic_msgs.msg import DiagnosticArray
+
+from ros_processes import (Recorder, SentGoal, action_client, hard_goal, node, wait_until,
+                           warehouse_goal)
+from split_mapf.msg import PlanOutcome
+
+
+class Lifecycle(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("lifecycle_rostest")
+
+    def setUp(self):
+        if rospy.has_param("/split_mapf"):
+            rospy.delete_param("/split_mapf")
+
+    def start(self, *arguments):
+        program = node("planner_node", *arguments)
+        self.addCleanup(program.end)
+        return program
+
+    def start_ready(self, *arguments):
+        program = self.start(*arguments)
+        self.assertTrue(program.wait_for_output("ready:"), program.output())
+        return program
+
+    def assert_ends_well(self, end):
+        """A running and a waiting goal get their ends before the node has its own."""
+        planner = self.start_ready("_threads:=1")
+        client = action_client()
+        running = SentGoal(client, hard_goal())
+        self.assertTrue(wait_until(running.is_active), planner.output())
+        waiting = SentGoal(client, warehouse_goal())
+        self.assertTrue(wait_until(waiting.is_pending), planner.output())
+        time.sleep(0.5)
+        begin = time.monotonic()
+        end(planner)
+        self.assertEqual(planner.wait(10), 0, planner.output())
+        self.assertLess(time.monotonic() - begin, 1.5)
+        for goal, state in ((running, "PREEMPTED"), (waiting, "RECALLED")):
+            self.assertTrue(goal.wait_for_end(2), planner.output())
+            self.assertEqual(goal.state(), state)
+            self.assertEqual(goal.result().outcome, PlanOutcome.CANCELLED)
+
+    def test_ends_every_goal_on_sigint(self):
+        self.assert_ends_well(lambda planner: planner.signal(signal.SIGINT))
+
+    def test_ends_every_goal_on_sigterm(self):
+        self.assert_ends_well(lambda planner: planner.signal(signal.SIGTERM))
+
+    def test_ends_every_goal_on_rosnode_kill(self):
+        self.assert_ends_well(lambda planner: rosnode.kill_nodes(["/split_mapf"]))
+
+    def test_replay_ends_on_sigterm(self):
+        replay = node("replay_node")
+        self.addCleanup(replay.end)
+        self.assertTrue(replay.wait_for_output("waiting for a plan"), replay.output())
+        replay.signal(signal.SIGTERM)
+        self.assertEqual(replay.wait(5), 0)
+
+    def test_refuses_bad_parameters_naming_them(self):
+        for argument, expected in (("_time_limit:=soon", "~time_limit"),
+                                   ("_threads:=-2", "~threads"),
+                                   ("_solver:=oracle", "oracle"),
+                                   ("_split:=8q", "8q"),
+                                   ("_map_file:=/nowhere.map", "/nowhere.map"),
+                                   ("_max_queued_goals:=0", "~max_queued_goals")):
+            planner = self.start(argument)
+            self.assertEqual(planner.wait(), 1, argument)
+            self.assertIn(expected, planner.output())
+            rospy.delete_param("/split_mapf")
+        replay = node("replay_node", "_rate:=fast")
+        self.addCleanup(replay.end)
+        self.assertEqual(replay.wait(), 1)
+        self.assertIn("~rate", replay.output())
+        rospy.delete_param("/replay")
+
+    def test_warns_of_misspelt_parameters(self):
+        planner = self.start_ready("_time_limt:=3")
+        self.assertIn("~time_limt is not one of this node", planner.output())
+
+    def test_reports_diagnostics(self):
+        diagnostics = Recorder("/diagnostics", DiagnosticArray)
+        self.addCleanup(diagnostics.close)
+        planner = self.start_ready("_threads:=2", "_max_queued_goals:=3")
+        sent = SentGoal(action_client(), warehouse_goal())
+        self.assertTrue(sent.wait_for_end(), planner.output())
+
+        def latest():
+            for message in reversed(diagnostics.messages):
+                for status in message.status:
+                    if status.name == "split_mapf: planner":
+                        return dict(((pair.key, pair.value) for pair in status.values),
+                                    level=status.level, summary=status.message)
+            return {}
+        self.assertTrue(wait_until(lambda: latest().get("goals finished") == "1"), latest())
+        values = latest()
+        self.assertEqual(values["level"], 0)
+        self.assertEqual(values["summary"], "ready")
+        self.assertEqual(values["workers"], "2")
+        self.assertEqual(values["goals allowed"], "3")
+        self.assertEqual(values["goals running"], "0")
+        self.assertEqual(values["last outcome"], "SUCCEEDED")
+        self.assertGreater(float(values["memory [MiB]"]), 1)
+
+    def test_holds_its_memory_over_many_goals(self):
+        planner = self.start_ready("_threads:=1")
+        client = action_client()
+
+        def memory():
+            with open("/proc/%d/statm" % planner.process.pid, encoding="ascii") as file:
+                return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 2 ** 20
+
+        def threads():
+            return len(os.listdir("/proc/%d/task" % planner.process.pid))
+        for _ in range(20):
+            self.assertTrue(SentGoal(client, warehouse_goal()).wait_for_end())
+        before, threads_before = memory(), threads()
+        for _ in range(60):
+            self.assertTrue(SentGoal(client, warehouse_goal()).wait_for_end())
+        self.assertLess(memory() - before, 20)
+        self.assertLessEqual(threads(), threads_before + 2)
+
+
+if __name__ == "__main__":
+    rosunit.unitrun("split_mapf", "lifecycle_rostest", Lifecycle)
