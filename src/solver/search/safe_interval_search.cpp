@@ -7,6 +7,8 @@ namespace {
 
 // Collisions beyond this number are not told apart, which bounds the bucket array.
 constexpr std::uint32_t kMostConflicts = 63;
+// Collisions that one step beyond the firm arrival weighs.
+constexpr std::uint32_t kFirmWeight = 8;
 constexpr std::uint64_t kPollEvery = 1024;
 
 }  // namespace
@@ -117,12 +119,20 @@ std::uint32_t SafeIntervalSearch::estimateOf(std::uint32_t time, std::uint32_t d
   return std::max(time + distance, earliest_hold_);
 }
 
+std::uint32_t SafeIntervalSearch::weightOf(std::uint32_t conflicts, std::uint32_t estimate) const {
+  std::uint32_t weight = conflicts;
+  if (estimate > query_->cheap_arrival) {
+    const std::uint32_t steps = estimate - query_->cheap_arrival;
+    weight += (steps + query_->steps_a_collision - 1) / query_->steps_a_collision;
+  }
+  if (estimate > query_->firm_arrival) weight += kFirmWeight * (estimate - query_->firm_arrival);
+  return std::min(weight, kMostConflicts);
+}
+
 void SafeIntervalSearch::push(const State& state, std::uint32_t estimate) {
   std::size_t bucket = estimate - first_estimate_;
   if (query_->mode == OthersAre::kCounted) {
-    std::uint32_t weight = state.conflicts;
-    if (estimate > query_->preferred_arrival) weight += estimate - query_->preferred_arrival;
-    bucket += static_cast<std::size_t>(std::min(weight, kMostConflicts)) * estimates_;
+    bucket += static_cast<std::size_t>(weightOf(state.conflicts, estimate)) * estimates_;
   } else if (bucket >= buckets_.size()) {
     buckets_.resize(2 * bucket + 64, kNone);
   }

@@ -19,8 +19,11 @@ struct SearchQuery {
   OthersAre mode = OthersAre::kIgnored;
   const RobotConstraints* constraints = nullptr;  ///< may be null
   std::uint32_t latest_arrival = kForever - 1;    ///< longest path allowed [steps]
-  /// With kCounted: each step of arrival beyond this one weighs like a conflict.
-  std::uint32_t preferred_arrival = kForever;
+  /// With kCounted an arrival after `cheap_arrival` weighs like one collision for every
+  /// `steps_a_collision` steps, after `firm_arrival` like several for each step.
+  std::uint32_t cheap_arrival = kForever;
+  std::uint32_t steps_a_collision = 1;
+  std::uint32_t firm_arrival = kForever;
 };
 
 /// The answer; `path` is empty when there is none (or when the deadline came: `interrupted`).
@@ -74,6 +77,7 @@ class SafeIntervalSearch {
   void tryArrive(const State& state, std::uint32_t index, std::uint32_t segment, Window window);
   bool firstAllowed(Vertex from, Vertex to, Window window, std::uint32_t& time) const;
   std::uint32_t swaps(Vertex from, Vertex to, std::uint32_t time) const;
+  std::uint32_t weightOf(std::uint32_t conflicts, std::uint32_t estimate) const;
   void push(const State& state, std::uint32_t estimate);
   void pushToSegment(const State& state, std::uint32_t distance);
   std::uint32_t pop();
@@ -98,7 +102,7 @@ class SafeIntervalSearch {
   std::uint32_t goal_first_segment_ = 0;
   std::vector<std::uint32_t> collisions_after_;
 
-  // Bucket queue over (conflicts + overtime, estimate), last in first out.
+  // Bucket queue over (weight, estimate), last in first out.
   std::vector<State> states_;
   std::vector<std::uint32_t> buckets_;
   std::uint32_t first_estimate_ = 0;
