@@ -240,8 +240,9 @@ def print_outcome(state, result, seconds):
         print("  robots        %d" % len(result.plan.paths))
         print_cost("makespan    ", result.plan.makespan, statistics.makespan_lower_bound)
         print_cost("sum of costs", result.plan.sum_of_costs, statistics.sum_of_costs_lower_bound)
-        print("  planned in    %.2f s, %d pieces%s" %
+        print("  planned in    %.2f s, %d %s%s" %
               (statistics.runtime, statistics.subproblems,
+               "piece" if statistics.subproblems == 1 else "pieces",
                ", proved optimal by " + statistics.certified_by if statistics.optimal else ""))
 
 

@@ -18,7 +18,9 @@ constexpr double kGoalHeight = 0.2;
 constexpr double kRobotHeight = 0.6;
 constexpr double kLabelHeight = 1.6;
 // Where cells would be too small to see, robots grow to this share of the map's longer side.
-constexpr double kVisibleShare = 1.0 / 90;
+constexpr double kVisibleShare = 1.0 / 80;
+// More robots than this share the area that so many would take.
+constexpr double kFewRobots = 400;
 constexpr double kShareOfCell = 0.8;
 
 std_msgs::ColorRGBA fromHsv(double hue, double saturation, double value) {
@@ -35,12 +37,14 @@ std_msgs::ColorRGBA fromHsv(double hue, double saturation, double value) {
   return colour;
 }
 
-double robotSize(const MarkerStyle& style, const nav_msgs::MapMetaData& grid) {
-  const double cells =
-      style.robot_size_cells > 0
-          ? style.robot_size_cells
-          : std::max(kShareOfCell, kVisibleShare * std::max(grid.width, grid.height));
-  return cells * grid.resolution;
+double robotSize(const MarkerStyle& style, const MultiRobotPlan& plan) {
+  double cells = style.robot_size_cells;
+  if (cells == 0) {
+    const double crowd = std::max(1.0, static_cast<double>(plan.paths.size()) / kFewRobots);
+    const double extent = std::max(plan.grid.width, plan.grid.height);
+    cells = std::max(kShareOfCell, kVisibleShare * extent / std::sqrt(crowd));
+  }
+  return cells * plan.grid.resolution;
 }
 
 geometry_msgs::Point lifted(geometry_msgs::Point point, double height) {
@@ -78,7 +82,7 @@ std_msgs::ColorRGBA colourOf(std::size_t index) {
 PlanMarkers::PlanMarkers(const MultiRobotPlan& plan, const MarkerStyle& style)
     : style_(style),
       geometry_(plan.grid, plan.header.frame_id),
-      robot_size_m_(robotSize(style, plan.grid)) {
+      robot_size_m_(robotSize(style, plan)) {
   requireDrawable(plan);
   for (const RobotPath& path : plan.paths) {
     ids_.push_back(path.robot_id);
@@ -151,7 +155,9 @@ Marker PlanMarkers::goals(const ros::Time& stamp) const {
 
 Marker PlanMarkers::trails(double position, const ros::Time& stamp) const {
   Marker marker = frame("trails", Marker::LINE_LIST, stamp);
-  marker.scale.x = robot_size_m_ * 0.3;
+  marker.scale.x = robot_size_m_ * 0.32;
+  // rviz blends the points' colours only when the line as a whole is not opaque.
+  marker.color.a = 0.99F;
   for (std::size_t i = 0; style_.trail_steps > 0 && i < ways_.size(); ++i) {
     addTrail(ways_[i], colourOf(i), position, marker);
   }
@@ -172,7 +178,7 @@ void PlanMarkers::addTrail(const Way& way, std_msgs::ColorRGBA colour, double po
     if (a.x != b.x || a.y != b.y) {
       // Fades with age.
       for (const double when : {from, to}) {
-        colour.a = static_cast<float>(0.05 + 0.65 * (1 - (position - when) / style_.trail_steps));
+        colour.a = static_cast<float>(0.85 * (1 - (position - when) / style_.trail_steps));
         marker.colors.push_back(colour);
       }
       marker.points.push_back(lifted(a, kTrailHeight * robot_size_m_));

@@ -117,11 +117,13 @@ TEST(PlanMarkers, LabelRobotsAndDeleteOnlyStaleLabels) {
   EXPECT_EQ(find(bare, "labels", 0), nullptr);
 }
 
-TEST(PlanMarkers, GrowWithTheMapUnlessTold) {
+TEST(PlanMarkers, GrowWithTheMapAndShrinkInCrowdsUnlessTold) {
   MultiRobotPlan plan = smallPlan();
   EXPECT_NEAR(find(PlanMarkers(plan, {}).at(0, ros::Time(1)), "robots")->scale.x, 0.8, 1e-9);
-  plan.grid.width = 900;
+  plan.grid.width = 800;
   EXPECT_NEAR(find(PlanMarkers(plan, {}).at(0, ros::Time(1)), "robots")->scale.x, 10, 1e-9);
+  plan.paths.resize(1600, plan.paths.back());
+  EXPECT_NEAR(find(PlanMarkers(plan, {}).at(0, ros::Time(1)), "robots")->scale.x, 5, 1e-9);
   MarkerStyle style;
   style.robot_size_cells = 0.5;
   plan.grid.resolution = 0.1F;
