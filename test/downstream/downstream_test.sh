@@ -19,9 +19,9 @@ cmake -S "$here" -B "$scratch/build"
 cmake --build "$scratch/build"
 
 program=$scratch/build/devel/lib/split_mapf_downstream/plan_two_robots
-if ! ldd "$program" | grep -q "$scratch/install/lib/libsplit_mapf_core"; then
-  echo "the program was not linked with the installed library:" >&2
-  ldd "$program" >&2
+linked=$(ldd "$program")
+if [[ $linked != *"$scratch/install/lib/libsplit_mapf_core"* ]]; then
+  printf 'the program was not linked with the installed library:\n%s\n' "$linked" >&2
   exit 1
 fi
 "$program" | tee "$scratch/output"
