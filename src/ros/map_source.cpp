@@ -1,23 +1,31 @@
 #include "split_mapf/ros/map_source.h"
 
+#include <algorithm>
+#include <cctype>
 #include <utility>
 
+#include "split_mapf/io/map_file.h"
 #include "split_mapf/io/map_server.h"
-#include "split_mapf/io/movingai.h"
 #include "split_mapf/ros/orientation.h"
 #include "split_mapf/ros/outcome.h"
 
 namespace split_mapf {
 namespace {
 
-bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+bool isYaml(std::string path) {
+  std::transform(path.begin(), path.end(), path.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto endsWith = [&path](const std::string& end) {
+    return path.size() >= end.size() &&
+           path.compare(path.size() - end.size(), end.size(), end) == 0;
+  };
+  return endsWith(".yaml") || endsWith(".yml");
 }
 
 OccupancyMap readOccupancy(const std::string& path) {
-  if (!endsWith(path, ".map")) return readMapServerMap(path);
+  if (isYaml(path)) return readMapServerMap(path);
   OccupancyMap map;
-  map.grid = readMovingAiMap(path);
+  map.grid = readMap(path);
   map.resolution_m = 1;
   map.occupancy.assign(std::size_t{map.grid->width()} * map.grid->height(), 100);
   for (Vertex v = 0; v < map.grid->size(); ++v) {

@@ -13,7 +13,7 @@ namespace split_mapf {
 
 /// Reads a map file (MovingAI `.map`, or map_server `.yaml`) as a map in frame `map`. A `.map` has
 /// cells of 1 m and its lower left corner at the origin.
-/// @throws InputError as readMap() and readMapServerMap().
+/// @throws InputError as readMap().
 nav_msgs::OccupancyGrid readMapMessage(const std::string& path);
 
 /// The latest map on the topic `map`. Thread-safe.
