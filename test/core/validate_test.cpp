@@ -236,6 +236,18 @@ TEST(Validate, NamesEveryRobotOfACrowdOnce) {
   EXPECT_EQ(found[1].other, 2U);
 }
 
+TEST(Validate, ListsALastingConflictNoLongerThanItsOwnPathsLast) {
+  const Instance instance = instanceFromAscii({"a.b",  //
+                                               "c.."},
+                                              {".ab",  //
+                                               "c.."});
+  const auto found = validate(
+      instance, Cells{{{0, 0}, {1, 0}}, {{2, 0}, {1, 0}}, {{0, 1}, {0, 1}, {0, 1}, {0, 1}}});
+  ASSERT_EQ(found.size(), 2U) << listOf(found);
+  EXPECT_TRUE(has(found, ViolationKind::kWrongGoal, 1, 1));
+  EXPECT_TRUE(has(found, ViolationKind::kVertexConflict, 0, 1));
+}
+
 TEST(Validate, FindsASwapBehindACrowdedCell) {
   const Instance instance = instanceFromAscii({"abc."}, {"abc."});
   // At step 1 robots 0 and 1 share (1,0). In step 2 robot 1 exchanges places with robot 2.
