@@ -10,7 +10,7 @@ import unittest
 
 import rosunit
 
-from ros_processes import Program, write_hard_instance, write_instance
+from ros_processes import start_program, write_hard_instance, write_instance
 
 
 class PlanClient(unittest.TestCase):
@@ -23,7 +23,7 @@ class PlanClient(unittest.TestCase):
         shutil.rmtree(self.directory)
 
     def start(self, *arguments):
-        program = Program("rosrun", "split_mapf", "plan_client.py", *arguments)
+        program = start_program("plan_client.py", *arguments)
         self.addCleanup(program.end)
         return program
 
@@ -51,8 +51,8 @@ class PlanClient(unittest.TestCase):
         self.assertEqual(len(plan["paths"]), 4)
         self.assertEqual(plan["paths"][0][0], [1, 1])
         self.assertEqual(plan["paths"][0][-1], [22, 1])
-        checked = Program("rosrun", "split_mapf", "split_mapf", "validate", "--map", self.map,
-                          "--scen", self.scen, "--plan", self.plan)
+        checked = start_program("split_mapf", "validate", "--map", self.map, "--scen", self.scen,
+                                "--plan", self.plan)
         self.addCleanup(checked.end)
         self.assertEqual(checked.wait(), 0, checked.output())
 

@@ -11,7 +11,7 @@ import rospy
 import rosunit
 from diagnostic_msgs.msg import DiagnosticArray
 
-from ros_processes import (Recorder, SentGoal, action_client, hard_goal, node, wait_until,
+from ros_processes import (Recorder, SentGoal, action_client, hard_goal, start_program, wait_until,
                            warehouse_goal)
 from split_mapf.msg import PlanOutcome
 
@@ -26,7 +26,7 @@ class Lifecycle(unittest.TestCase):
             rospy.delete_param("/split_mapf")
 
     def start(self, *arguments):
-        program = node("planner_node", *arguments)
+        program = start_program("planner_node", *arguments)
         self.addCleanup(program.end)
         return program
 
@@ -63,7 +63,7 @@ class Lifecycle(unittest.TestCase):
         self.assert_ends_well(lambda planner: rosnode.kill_nodes(["/split_mapf"]))
 
     def test_replay_ends_on_sigterm(self):
-        replay = node("replay_node")
+        replay = start_program("replay_node")
         self.addCleanup(replay.end)
         self.assertTrue(replay.wait_for_output("waiting for a plan"), replay.output())
         replay.signal(signal.SIGTERM)
@@ -80,7 +80,7 @@ class Lifecycle(unittest.TestCase):
             self.assertEqual(planner.wait(), 1, argument)
             self.assertIn(expected, planner.output())
             rospy.delete_param("/split_mapf")
-        replay = node("replay_node", "_rate:=fast")
+        replay = start_program("replay_node", "_rate:=fast")
         self.addCleanup(replay.end)
         self.assertEqual(replay.wait(), 1)
         self.assertIn("~rate", replay.output())

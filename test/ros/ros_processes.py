@@ -8,6 +8,7 @@ import tempfile
 import time
 
 import actionlib
+import roslib.packages
 import rospy
 from actionlib_msgs.msg import GoalStatus
 from nav_msgs.msg import OccupancyGrid
@@ -72,9 +73,10 @@ class Program:
         self.output_file.close()
 
 
-def node(name, *arguments):
-    """The command that starts a node of this package."""
-    return Program("rosrun", "split_mapf", name, *arguments)
+def start_program(name, *arguments):
+    """Starts a program of this package, as roslaunch finds it: rosrun does not look into a devel
+    space that lies in the package's own build folder."""
+    return Program(roslib.packages.find_node("split_mapf", name)[0], *arguments)
 
 
 def wait_until(condition, patience=20):
