@@ -5,11 +5,9 @@
 
 namespace split_mapf {
 
-ActiveGoal::ActiveGoal(PlanActionServer::GoalHandle handle, std::uint64_t ticket,
+ActiveGoal::ActiveGoal(const PlanActionServer::GoalHandle& handle, std::uint64_t ticket,
                        std::shared_ptr<const StopFlag> stop_all)
-    : handle_(std::move(handle)),
-      ticket_(ticket),
-      stop_(std::make_shared<StopFlag>(std::move(stop_all))) {
+    : handle_(handle), ticket_(ticket), stop_(std::make_shared<StopFlag>(std::move(stop_all))) {
   feedback_.stage = "queued";
 }
 

@@ -15,11 +15,11 @@ namespace {
 bool isYaml(std::string path) {
   std::transform(path.begin(), path.end(), path.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const auto endsWith = [&path](const std::string& end) {
+  const auto ends_with = [&path](const std::string& end) {
     return path.size() >= end.size() &&
            path.compare(path.size() - end.size(), end.size(), end) == 0;
   };
-  return endsWith(".yaml") || endsWith(".yml");
+  return ends_with(".yaml") || ends_with(".yml");
 }
 
 OccupancyMap readOccupancy(const std::string& path) {

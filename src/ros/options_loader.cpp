@@ -114,15 +114,15 @@ ServerOptions readAll(ParameterReader& reader) {
 
 }  // namespace
 
-ServerOptions readServerOptions(XmlRpc::XmlRpcValue parameters) {
-  ParameterReader reader(std::move(parameters));
+ServerOptions readServerOptions(const XmlRpc::XmlRpcValue& parameters) {
+  ParameterReader reader(parameters);
   ServerOptions options = readAll(reader);
   checkNumbers(options.goal);
   return options;
 }
 
-std::vector<std::string> findUnknownParameters(XmlRpc::XmlRpcValue parameters) {
-  ParameterReader reader(std::move(parameters));
+std::vector<std::string> findUnknownParameters(const XmlRpc::XmlRpcValue& parameters) {
+  ParameterReader reader(parameters);
   readAll(reader);
   const std::set<std::string> of_libraries = {"actionlib_server_pub_queue_size",
                                               "actionlib_server_sub_queue_size",

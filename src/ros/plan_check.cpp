@@ -80,7 +80,7 @@ void checkGrid(const MultiRobotPlan& plan, const PlanningGrid& grid,
                       grid.geometry.frame() + "'");
     } else if (std::hypot(ours.x - theirs.x, ours.y - theirs.y) > 0.01 * of_map.resolution ||
                std::abs(std::remainder(geometry.yaw() - grid.geometry.yaw(), 2 * M_PI)) > 1e-4) {
-      found.push_back("the plan's grid has another origin than the map");
+      found.emplace_back("the plan's grid has another origin than the map");
     }
   } catch (const GoalError& error) {
     found.push_back(std::string("the plan's grid is none; ") + error.what());

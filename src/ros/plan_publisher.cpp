@@ -10,8 +10,9 @@
 
 namespace split_mapf {
 
-PlanPublisher::PlanPublisher(ros::NodeHandle node, ros::NodeHandle private_node, bool publish_paths)
-    : node_(std::move(node)),
+PlanPublisher::PlanPublisher(const ros::NodeHandle& node, ros::NodeHandle private_node,
+                             bool publish_paths)
+    : node_(node),
       publish_paths_(publish_paths),
       plan_(private_node.advertise<MultiRobotPlan>("plan", 1, true)),
       grid_(private_node.advertise<nav_msgs::OccupancyGrid>("planning_grid", 1, true)) {}

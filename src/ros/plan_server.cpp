@@ -38,12 +38,12 @@ PlanServer::PlanServer(const ros::NodeHandle& private_node, const GoalPlanner& p
       limits_(limits),
       slots_(limits.running),
       server_(
-          private_node, "plan_paths", [this](PlanActionServer::GoalHandle goal) { onGoal(goal); },
-          [this](PlanActionServer::GoalHandle goal) { onCancel(goal); }, false) {
-  ros::NodeHandle node(private_node);
-  feedback_timer_ =
-      node.createWallTimer(ros::WallDuration(kFeedbackPeriodSec),
-                           [this](const ros::WallTimerEvent& /*event*/) { publishFeedback(); });
+          private_node, "plan_paths",
+          [this](const PlanActionServer::GoalHandle& goal) { onGoal(goal); },
+          [this](const PlanActionServer::GoalHandle& goal) { onCancel(goal); }, false) {
+  feedback_timer_ = private_node.createWallTimer(
+      ros::WallDuration(kFeedbackPeriodSec),
+      [this](const ros::WallTimerEvent& /*event*/) { publishFeedback(); });
   server_.start();
 }
 

@@ -79,12 +79,12 @@ Cell MapGeometry::cellAt(const geometry_msgs::Point& point) const {
   const double dx = point.x - info_.origin.position.x;
   const double dy = point.y - info_.origin.position.y;
   // A point far outside, or lost by overflow, does not fit an integer: just outside says as much.
-  const auto cellsAlong = [this](double metres, std::uint32_t cells) {
+  const auto cells_along = [this](double metres, std::uint32_t cells) {
     const double along = std::floor(metres / info_.resolution);
     return along >= 0 ? static_cast<std::int32_t>(std::min<double>(along, cells)) : -1;
   };
-  const std::int32_t column = cellsAlong(cos_ * dx + sin_ * dy, info_.width);
-  const std::int32_t row = cellsAlong(cos_ * dy - sin_ * dx, info_.height);
+  const std::int32_t column = cells_along(cos_ * dx + sin_ * dy, info_.width);
+  const std::int32_t row = cells_along(cos_ * dy - sin_ * dx, info_.height);
   return {column, static_cast<std::int32_t>(info_.height) - 1 - row};
 }
 

@@ -35,8 +35,8 @@ std::string stepText(const ReplayTimeline& timeline) {
 
 }  // namespace
 
-ReplayOptions readReplayOptions(XmlRpc::XmlRpcValue parameters) {
-  ParameterReader reader(std::move(parameters));
+ReplayOptions readReplayOptions(const XmlRpc::XmlRpcValue& parameters) {
+  ParameterReader reader(parameters);
   ReplayOptions options;
   reader.read("robot_size", options.style.robot_size_cells);
   reader.read("trail_steps", options.style.trail_steps);

@@ -17,7 +17,7 @@ namespace split_mapf {
 namespace {
 
 // Closer than this, two positions are the same: transforms round.
-constexpr double kSamePosition_m = 1e-6;
+constexpr double kSamePositionMetres = 1e-6;
 
 /// A fault and the robot it belongs to, so that faults can be put in the goal's order.
 struct IndexedFault {
@@ -150,7 +150,7 @@ class Placement {
     const std::string place = "its " + role + " " + toText(here);
     const std::string cell = grid_.geometry.describe(grid_.geometry.cellAt(here));
     const std::string who = "robot '" + placed_.ids[other] + "'";
-    if (std::hypot(here.x - there.x, here.y - there.y) <= kSamePosition_m) {
+    if (std::hypot(here.x - there.x, here.y - there.y) <= kSamePositionMetres) {
       report(robot, duplicate,
              place + " in cell " + cell + " is also the " + role + " of " + who +
                  "; each robot needs its own");

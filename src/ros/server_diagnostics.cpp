@@ -17,9 +17,9 @@ double residentMemoryMib() {
   return 0;
 }
 
-ServerDiagnostics::ServerDiagnostics(ros::NodeHandle node, ros::NodeHandle private_node,
-                                     const PlanServer& server, QueueLimits limits,
-                                     std::uint32_t workers)
+ServerDiagnostics::ServerDiagnostics(const ros::NodeHandle& node,
+                                     const ros::NodeHandle& private_node, const PlanServer& server,
+                                     QueueLimits limits, std::uint32_t workers)
     : server_(server), limits_(limits), workers_(workers), updater_(node, private_node) {
   updater_.setHardwareID("none");
   updater_.add("planner",

@@ -76,11 +76,12 @@ PlanPathsGoal hardGoal() {
     rows[static_cast<std::size_t>(cell.y)][static_cast<std::size_t>(cell.x)] = '.';
   }
   goal.map = mapFromAscii(rows);
-  const auto centreOf = [&](Cell cell) {
+  const auto centre_of = [&](Cell cell) {
     return poseAt(cell.x + 0.5, options.height - cell.y - 0.5);
   };
   for (std::size_t i = 0; i < problem.starts.size(); ++i) {
-    goal.robots.push_back(taskBetween("", centreOf(problem.starts[i]), centreOf(problem.goals[i])));
+    goal.robots.push_back(
+        taskBetween("", centre_of(problem.starts[i]), centre_of(problem.goals[i])));
   }
   goal.options.solver = "ecbs";
   goal.options.split = "none";

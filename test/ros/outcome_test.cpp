@@ -25,8 +25,8 @@ std::map<std::string, int> constantsOfMessage() {
   return constants;
 }
 
-const std::set<int> kCodesOfTheInterface = {0,  1,  2,  3,  4,  5,  10, 11, 12, 13, 20,
-                                            21, 22, 23, 24, 25, 26, 27, 28, 29, 40, 50};
+const std::set<int> codes_of_the_interface = {0,  1,  2,  3,  4,  5,  10, 11, 12, 13, 20,
+                                              21, 22, 23, 24, 25, 26, 27, 28, 29, 40, 50};
 
 TEST(Outcome, IsTheSameAsTheMessage) {
   const std::map<std::string, int> constants = constantsOfMessage();
@@ -35,12 +35,12 @@ TEST(Outcome, IsTheSameAsTheMessage) {
     codes.insert(code);
     EXPECT_EQ(toString(static_cast<Outcome>(code)), name);
   }
-  EXPECT_EQ(codes, kCodesOfTheInterface);
+  EXPECT_EQ(codes, codes_of_the_interface);
 }
 
 TEST(Outcome, KnowsNoOtherCode) {
   for (int code = -1; code < 100; ++code) {
-    if (kCodesOfTheInterface.count(code) != 0) continue;
+    if (codes_of_the_interface.count(code) != 0) continue;
     EXPECT_THROW(toString(static_cast<Outcome>(code)), std::logic_error) << code;
   }
 }

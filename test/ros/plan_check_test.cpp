@@ -12,13 +12,13 @@ using Cells = std::vector<std::uint32_t>;
 
 /// Cells are numbered from the lower left: 0 to 3 in the lower row, 4 to 7 in the upper one, where
 /// 5 is blocked.
-const nav_msgs::OccupancyGrid kMap = test::mapFromAscii({".#..", "...."});
+const nav_msgs::OccupancyGrid small_map = test::mapFromAscii({".#..", "...."});
 
 MultiRobotPlan planOf(const std::vector<Cells>& paths, std::uint32_t makespan,
                       std::uint64_t sum_of_costs) {
   MultiRobotPlan plan;
   plan.header.frame_id = "map";
-  plan.grid = kMap.info;
+  plan.grid = small_map.info;
   plan.step_duration = 1;
   plan.makespan = makespan;
   plan.sum_of_costs = sum_of_costs;
@@ -31,7 +31,7 @@ MultiRobotPlan planOf(const std::vector<Cells>& paths, std::uint32_t makespan,
 }
 
 std::vector<std::string> violationsOf(const MultiRobotPlan& plan) {
-  return findViolations(plan, makePlanningGrid(kMap, {}));
+  return findViolations(plan, makePlanningGrid(small_map, {}));
 }
 
 /// Expects exactly one violation, which has all parts in it.
@@ -77,13 +77,13 @@ TEST(PlanCheck, ComparesTheGridWithTheMap) {
   MultiRobotPlan plan = planOf({{0, 1}}, 1, 1);
   plan.grid.resolution = 2;
   expectOne(plan, {"4x2", "2.000000 m"});
-  plan.grid = kMap.info;
+  plan.grid = small_map.info;
   plan.grid.origin.position.x = 1;
   expectOne(plan, {"origin"});
-  plan.grid = kMap.info;
+  plan.grid = small_map.info;
   plan.grid.origin.orientation = quaternionOf(1);
   expectOne(plan, {"origin"});
-  plan.grid = kMap.info;
+  plan.grid = small_map.info;
   plan.header.frame_id = "elsewhere";
   expectOne(plan, {"'elsewhere'", "'map'"});
 }

@@ -163,18 +163,17 @@ TEST_P(BadGoalTest, EndsWithItsOutcomeAndTheNodeLivesOn) {
   expectServing();
 }
 
-const std::vector<std::string> kNobody;
+const std::vector<std::string> nobody;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 INSTANTIATE_TEST_SUITE_P(
     Maps, BadGoalTest,
     ::testing::Values(BadGoal{"MisSized", PlanOutcome::INVALID_MAP,
-                              [](auto& g) { g.map.data.pop_back(); }, kNobody, "35 cells"},
+                              [](auto& g) { g.map.data.pop_back(); }, nobody, "35 cells"},
                       BadGoal{"NoRows", PlanOutcome::INVALID_MAP,
-                              [](auto& g) { g.map.info.height = 0; }, kNobody, "6x0"},
+                              [](auto& g) { g.map.info.height = 0; }, nobody, "6x0"},
                       BadGoal{"Resolution", PlanOutcome::INVALID_MAP,
-                              [](auto& g) { g.map.info.resolution = -0.1F; }, kNobody,
-                              "resolution"},
+                              [](auto& g) { g.map.info.resolution = -0.1F; }, nobody, "resolution"},
                       BadGoal{"NoFreeCell",
                               PlanOutcome::BLOCKED_CELL,
                               [](auto& g) { std::fill(g.map.data.begin(), g.map.data.end(), 100); },
@@ -186,38 +185,38 @@ INSTANTIATE_TEST_SUITE_P(
     Options, BadGoalTest,
     ::testing::Values(
         BadGoal{"Solver", PlanOutcome::UNKNOWN_SOLVER, [](auto& g) { g.options.solver = "oracle"; },
-                kNobody, "oracle"},
+                nobody, "oracle"},
         BadGoal{"SolverOption", PlanOutcome::INVALID_OPTION,
-                [](auto& g) { g.options.solver_options = {"colour=red"}; }, kNobody, "colour"},
+                [](auto& g) { g.options.solver_options = {"colour=red"}; }, nobody, "colour"},
         BadGoal{"SplitText", PlanOutcome::INVALID_SPLIT, [](auto& g) { g.options.split = "8q"; },
-                kNobody, "8q"},
+                nobody, "8q"},
         BadGoal{"SplitRatios", PlanOutcome::INVALID_SPLIT,
-                [](auto& g) { g.options.split = "t(0.5,0.6)"; }, kNobody, "t(0.5,0.6)"},
+                [](auto& g) { g.options.split = "t(0.5,0.6)"; }, nobody, "t(0.5,0.6)"},
         BadGoal{"SplitOption", PlanOutcome::INVALID_OPTION,
                 [](auto& g) { g.options.split = "2t", g.options.split_options = {"colour=red"}; },
-                kNobody, "colour"},
+                nobody, "colour"},
         BadGoal{"Objective", PlanOutcome::INVALID_OPTION,
-                [](auto& g) { g.options.objective = "joy"; }, kNobody, "joy"},
+                [](auto& g) { g.options.objective = "joy"; }, nobody, "joy"},
         BadGoal{"Suboptimality", PlanOutcome::INVALID_OPTION,
-                [](auto& g) { g.options.suboptimality = 0.5; }, kNobody, "0.5"},
+                [](auto& g) { g.options.suboptimality = 0.5; }, nobody, "0.5"},
         BadGoal{"TimeLimit", PlanOutcome::INVALID_OPTION,
-                [](auto& g) { g.options.time_limit = kNan; }, kNobody, "time_limit"},
+                [](auto& g) { g.options.time_limit = kNan; }, nobody, "time_limit"},
         BadGoal{"RobotRadius", PlanOutcome::INVALID_OPTION,
-                [](auto& g) { g.options.robot_radius = 0.3; }, kNobody, "robot_radius 0.3"},
+                [](auto& g) { g.options.robot_radius = 0.3; }, nobody, "robot_radius 0.3"},
         BadGoal{"CellSize", PlanOutcome::INVALID_OPTION, [](auto& g) { g.options.cell_size = 2; },
-                kNobody, "cell_size 2"},
+                nobody, "cell_size 2"},
         BadGoal{"UnknownSpace", PlanOutcome::INVALID_OPTION,
-                [](auto& g) { g.options.unknown_space = 9; }, kNobody, "unknown_space 9"},
+                [](auto& g) { g.options.unknown_space = 9; }, nobody, "unknown_space 9"},
         BadGoal{"Threshold", PlanOutcome::INVALID_OPTION,
-                [](auto& g) { g.options.occupied_threshold = 120; }, kNobody, "120"},
+                [](auto& g) { g.options.occupied_threshold = 120; }, nobody, "120"},
         BadGoal{"StepDuration", PlanOutcome::INVALID_OPTION,
-                [](auto& g) { g.options.step_duration = -1; }, kNobody, "step_duration"}),
+                [](auto& g) { g.options.step_duration = -1; }, nobody, "step_duration"}),
     [](const auto& info) { return info.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
     Robots, BadGoalTest,
     ::testing::Values(BadGoal{"None", PlanOutcome::NO_ROBOTS, [](auto& g) { g.robots.clear(); },
-                              kNobody, "no robots"},
+                              nobody, "no robots"},
                       BadGoal{"SameId",
                               PlanOutcome::DUPLICATE_ROBOT_ID,
                               [](auto& g) { g.robots[1].robot_id = "left"; },
@@ -294,10 +293,10 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Searches, BadGoalTest,
     ::testing::Values(BadGoal{"Timeout", PlanOutcome::TIMEOUT,
-                              [](auto& g) { g = hardGoal(), g.options.time_limit = 0.5; }, kNobody,
+                              [](auto& g) { g = hardGoal(), g.options.time_limit = 0.5; }, nobody,
                               "time"},
                       BadGoal{"NoTime", PlanOutcome::TIMEOUT,
-                              [](auto& g) { g.options.time_limit = -1; }, kNobody, "time"}),
+                              [](auto& g) { g.options.time_limit = -1; }, nobody, "time"}),
     [](const auto& info) { return info.param.name; });
 
 TEST_F(PlannerNode, StopsACancelledSearchAtOnce) {

@@ -24,7 +24,7 @@ using PlanActionServer = actionlib::ActionServer<PlanPathsAction>;
 class ActiveGoal {
  public:
   /// @param stop_all  raised when the node ends.
-  ActiveGoal(PlanActionServer::GoalHandle handle, std::uint64_t ticket,
+  ActiveGoal(const PlanActionServer::GoalHandle& handle, std::uint64_t ticket,
              std::shared_ptr<const StopFlag> stop_all);
   /// Joins the thread. @pre the goal is done, or its body is about to end.
   ~ActiveGoal();

@@ -32,10 +32,10 @@ struct ServerOptions {
 
 /// Reads the node's parameters, a struct of name and value; what is missing keeps its default.
 /// @throws OptionError naming the parameter, what it holds and what is expected.
-ServerOptions readServerOptions(XmlRpc::XmlRpcValue parameters);
+ServerOptions readServerOptions(const XmlRpc::XmlRpcValue& parameters);
 /// Parameters that no one reads: misspelt ones, most likely. Those of the libraries below the node
 /// (actionlib, diagnostic_updater) are known.
-std::vector<std::string> findUnknownParameters(XmlRpc::XmlRpcValue parameters);
+std::vector<std::string> findUnknownParameters(const XmlRpc::XmlRpcValue& parameters);
 
 /// Fills what a goal leaves open (0 or empty) from the server's options; a negative number stands
 /// for zero. The server's solver options go with the server's solver only.

@@ -16,7 +16,7 @@ namespace split_mapf {
 class ParameterReader {
  public:
   /// @param parameters  a struct of name and value, or an invalid value when there are none.
-  explicit ParameterReader(XmlRpc::XmlRpcValue parameters) : parameters_(std::move(parameters)) {}
+  explicit ParameterReader(const XmlRpc::XmlRpcValue& parameters) : parameters_(parameters) {}
 
   void read(const std::string& name, std::string& target);
   void read(const std::string& name, bool& target);

@@ -17,7 +17,7 @@ namespace split_mapf {
 class PlanPublisher {
  public:
   /// `~plan` and `~planning_grid` in `private_node`, `<name>/path` in `node`.
-  PlanPublisher(ros::NodeHandle node, ros::NodeHandle private_node, bool publish_paths);
+  PlanPublisher(const ros::NodeHandle& node, ros::NodeHandle private_node, bool publish_paths);
 
   /// @pre with publish_paths the robots' ROS names are distinct.
   void publish(const MultiRobotPlan& plan, const PlanningGrid& grid);

@@ -27,7 +27,7 @@ struct ReplayOptions {
 
 /// Reads ~robot_size, ~trail_steps, ~show_goals, ~show_labels, ~rate, ~speed and ~loop.
 /// @throws OptionError naming the parameter.
-ReplayOptions readReplayOptions(XmlRpc::XmlRpcValue parameters);
+ReplayOptions readReplayOptions(const XmlRpc::XmlRpcValue& parameters);
 
 /// Shows plans as moving markers: subscribes `plan` and `planning_grid`, publishes ~markers, serves
 /// ~control. A new plan starts at once, at its step 0. Paced by ROS time. Thread-safe.

@@ -17,8 +17,8 @@ double residentMemoryMib();
 class ServerDiagnostics {
  public:
   /// @pre the server outlives this object.
-  ServerDiagnostics(ros::NodeHandle node, ros::NodeHandle private_node, const PlanServer& server,
-                    QueueLimits limits, std::uint32_t workers);
+  ServerDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
+                    const PlanServer& server, QueueLimits limits, std::uint32_t workers);
 
  private:
   void fill(diagnostic_updater::DiagnosticStatusWrapper& status) const;
