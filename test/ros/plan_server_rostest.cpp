@@ -11,6 +11,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <ostream>
 #include <set>
 
 #include "ros/goal_messages.h"
@@ -136,7 +137,7 @@ struct BadGoal {
   std::string expected_in_message;
 };
 
-void PrintTo(const BadGoal& bad, std::ostream* out) { *out << bad.name; }
+std::ostream& operator<<(std::ostream& out, const BadGoal& bad) { return out << bad.name; }
 
 class BadGoalTest : public PlannerNode, public ::testing::WithParamInterface<BadGoal> {};
 
@@ -336,10 +337,8 @@ TEST_F(PlannerNode, ServesOtherGoalsBesideALongOne) {
 }
 
 TEST_F(PlannerNode, SurvivesManyGoalsAtOnce) {
-  std::vector<std::unique_ptr<TrackedGoal>> goals;
-  for (int i = 0; i < 40; ++i) {
-    goals.push_back(std::make_unique<TrackedGoal>(client_, smallGoal()));
-  }
+  std::vector<std::unique_ptr<TrackedGoal>> goals(40);
+  for (auto& goal : goals) goal = std::make_unique<TrackedGoal>(client_, smallGoal());
   int planned = 0;
   for (const auto& goal : goals) {
     ASSERT_TRUE(goal->waitDone());

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <ostream>
 
 #include "ros/goal_messages.h"
 #include "split_mapf/core/error.h"
@@ -53,16 +54,16 @@ TEST(PlanningGrid, ComesBackAsTheSameMap) {
 TEST(PlanningGrid, TreatsUnknownCellsAndTheThresholdAsAsked) {
   nav_msgs::OccupancyGrid map = mapFromAscii({"?...."});
   map.data = {-1, 49, 50, 100, 101};
-  const auto freeOf = [&](const OccupancyRule& rule) {
+  const auto free_of = [&](const OccupancyRule& rule) {
     std::string text;
     const PlanningGrid grid = makePlanningGrid(map, rule);
     for (int x = 0; x < 5; ++x) text += grid.grid->isFree({x, 0}) ? '.' : '#';
     return text;
   };
-  EXPECT_EQ(freeOf({65, false}), "#..##");
-  EXPECT_EQ(freeOf({65, true}), "...##");
-  EXPECT_EQ(freeOf({50, true}), "..###");
-  EXPECT_EQ(freeOf({100, false}), "#..##");
+  EXPECT_EQ(free_of({65, false}), "#..##");
+  EXPECT_EQ(free_of({65, true}), "...##");
+  EXPECT_EQ(free_of({50, true}), "..###");
+  EXPECT_EQ(free_of({100, false}), "#..##");
   EXPECT_THROW(makePlanningGrid(map, {0, false}), OptionError);
 }
 
@@ -89,7 +90,8 @@ TEST(MapGeometry, FindsEveryCellFromItsCentreAtAnyYaw) {
   map.info.resolution = 0.05F;
   map.info.origin.position.x = -31.7;
   map.info.origin.position.y = 5.3;
-  for (double yaw = -3; yaw <= 3; yaw += 0.37) {
+  for (int turn = -8; turn <= 8; ++turn) {
+    const double yaw = turn * 0.37;
     map.info.origin.orientation = quaternionOf(yaw);
     const MapGeometry geometry(map.info, "map");
     for (int x = 0; x < 5; ++x) {
@@ -125,7 +127,7 @@ struct BadMap {
   std::string expected;
 };
 
-void PrintTo(const BadMap& bad, std::ostream* out) { *out << bad.name; }
+std::ostream& operator<<(std::ostream& out, const BadMap& bad) { return out << bad.name; }
 
 class BadMapTest : public ::testing::TestWithParam<BadMap> {};
 

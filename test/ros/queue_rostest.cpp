@@ -207,8 +207,8 @@ TEST_F(Queue, CancelsAGoalWhoseWorkersServeAnother) {
 
 TEST_F(Queue, CancelsAllGoalsAtOnce) {
   start({8, 1});
-  std::vector<std::unique_ptr<TrackedGoal>> goals;
-  for (int i = 0; i < 5; ++i) goals.push_back(send("wait"));
+  std::vector<std::unique_ptr<TrackedGoal>> goals(5);
+  for (auto& goal : goals) goal = send("wait");
   expectGoals(1, 4);
   client_->cancelAllGoals();
   for (const auto& goal : goals) {

@@ -38,6 +38,12 @@ bool TrackedGoal::waitDone(double patience_sec) {
                                    [this] { return events_->times_done > 0; });
 }
 
+PlanPathsResult TrackedGoal::result() const {
+  const PlanPathsResultConstPtr result = handle_.getResult();
+  if (!result) throw std::logic_error("the goal has no result yet");
+  return *result;
+}
+
 std::vector<PlanPathsFeedback> TrackedGoal::feedback() const {
   const std::lock_guard<std::mutex> lock(events_->mutex);
   return events_->feedback;

@@ -26,7 +26,7 @@ class TrackedGoal {
 
   /// "SUCCEEDED", "ABORTED", ... @pre waitDone().
   std::string state() const { return handle_.getTerminalState().toString(); }
-  PlanPathsResult result() const { return *handle_.getResult(); }
+  PlanPathsResult result() const;
   std::vector<PlanPathsFeedback> feedback() const;
   /// Seconds from cancel() or sending to the terminal state are measured with this clock.
   static double now();
