@@ -69,6 +69,7 @@ TEST(Executor, ServesSeveralCallersAtOnce) {
   Executor executor(2);
   std::atomic<int> sum{0};
   std::vector<std::thread> callers;
+  callers.reserve(8);
   for (int caller = 0; caller < 8; ++caller) {
     callers.emplace_back([&] { executor.forEach(100, [&](std::uint32_t) { ++sum; }); });
   }

@@ -24,7 +24,7 @@ Instance randomInstance(std::uint32_t side, double density, std::uint32_t robots
                         std::uint64_t seed) {
   RandomEngine engine(seed);
   for (;;) {
-    std::vector<bool> free(side * side);
+    std::vector<bool> free(std::size_t{side} * side);
     for (std::size_t i = 0; i < free.size(); ++i) {
       free[i] = static_cast<double>(drawBelow(engine, 1000)) >= density * 1000;
     }
