@@ -70,9 +70,6 @@ PreparedGoal GoalPlanner::prepare(const boost::shared_ptr<const PlanPathsGoal>& 
 GoalAnswer GoalPlanner::plan(const PreparedGoal& goal, const Deadline& deadline,
                              const ProgressCallback& progress) const {
   const PlanReport report = planner_.plan(goal.instance, goal.options.plan, deadline, progress);
-  if (report.cut_off_robot) {
-    requireReachableGoals(goal.instance, goal.robots.ids, goal.grid.geometry);
-  }
   GoalAnswer answer;
   answer.outcome = outcomeOf(report.termination);
   answer.result.message = sentenceOf(report);
