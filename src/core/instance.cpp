@@ -73,6 +73,8 @@ Instance Instance::fromVertices(std::shared_ptr<const Grid> grid, const std::vec
                                 const std::vector<Vertex>& goals, DistanceExtent extent) {
   std::vector<Cell> start_cells;
   std::vector<Cell> goal_cells;
+  start_cells.reserve(starts.size());
+  goal_cells.reserve(goals.size());
   for (const Vertex v : starts) start_cells.push_back(grid->cellOf(v));
   for (const Vertex v : goals) goal_cells.push_back(grid->cellOf(v));
   return Instance(std::move(grid), start_cells, goal_cells, extent);
