@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "split_mapf/core/error.h"
+#include "split_mapf/solver/conflict_optimizer.h"
 #include "split_mapf/solver/ecbs.h"
 #include "split_mapf/solver/prioritized.h"
 
@@ -62,6 +63,7 @@ std::unique_ptr<Solver> SolverRegistry::create(const std::string& name,
 const SolverRegistry& builtinSolvers() {
   static const SolverRegistry registry = [] {
     SolverRegistry solvers;
+    solvers.add(ConflictOptimizerSolver::info());
     solvers.add(EcbsSolver::info());
     solvers.add(PrioritizedSolver::info());
     return solvers;

@@ -1,0 +1,91 @@
+#include "split_mapf/solver/conflict_optimizer.h"
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "solver/conflict_optimizer/placement.h"
+#include "split_mapf/core/option_values.h"
+#include "split_mapf/core/random.h"
+
+namespace split_mapf {
+namespace {
+
+// Placings that depart late, once a horizon has failed.
+constexpr std::uint32_t kDelayedOneIn = 4;
+
+std::vector<std::uint32_t> shortestFirst(const Instance& instance, std::uint64_t seed) {
+  std::vector<std::uint32_t> order(instance.robots());
+  std::iota(order.begin(), order.end(), 0U);
+  RandomEngine engine(seed);
+  shuffle(order, engine);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return instance.shortestLength(a) < instance.shortestLength(b);
+  });
+  return order;
+}
+
+}  // namespace
+
+ConflictOptimizerSolver::ConflictOptimizerSolver(const SolverOptions& options)
+    : objective_(options.objective),
+      seed_(options.seed),
+      expansion_limit_(options.expansion_limit) {
+  const OptionValues values(options.values);
+  settings_.placements = values.count("placements", settings_.placements);
+  settings_.slack = values.count("slack", settings_.slack);
+}
+
+SolverInfo ConflictOptimizerSolver::info() {
+  const Settings defaults;
+  return {"conflict_optimizer",
+          "places robots within a fixed horizon, displacing the cheapest: optimal makespan on most "
+          "maps",
+          {{"placements", std::to_string(defaults.placements),
+            "placements a robot, on average, before a horizon is given up for a longer one"},
+           {"slack", std::to_string(defaults.slack),
+            "sum of costs: steps that the first horizon exceeds the greatest shortest path by"}},
+          [](const SolverOptions& options) {
+            return std::make_unique<ConflictOptimizerSolver>(options);
+          }};
+}
+
+SolveResult ConflictOptimizerSolver::solve(const Instance& instance,
+                                           const Deadline& deadline) const {
+  SolveResult result;
+  if (const auto robot = findCutOffRobot(instance)) return cutOffResult(*robot);
+  result.lower_bound = lowerBound(instance, objective_);
+  Placement placement(instance, shortestFirst(instance, seed_), seed_);
+  const std::uint32_t bound = makespanLowerBound(instance);
+  Placement::Effort effort;
+  effort.placements = std::max<std::uint64_t>(1, settings_.placements) * instance.robots();
+  effort.expansion_limit = expansion_limit_;
+  // Longer than this no robot has to travel on any but pathological graphs.
+  const std::uint64_t longest = std::uint64_t{4} * (bound + instance.graph().size());
+  std::uint64_t slack = objective_ == Objective::kMakespan ? 0 : settings_.slack;
+  for (std::uint64_t step = 1; bound + slack <= longest; slack += step, step += (step + 3) / 4) {
+    ++result.high_level_nodes;
+    const auto outcome = placement.run(static_cast<std::uint32_t>(bound + slack), effort, deadline);
+    effort.delayed_one_in = kDelayedOneIn;
+    result.low_level_expansions = placement.expansions();
+    if (outcome == Placement::Outcome::kSpent) continue;
+    if (outcome == Placement::Outcome::kExhausted) return outOfExpansions(expansion_limit_);
+    if (outcome == Placement::Outcome::kInterrupted) {
+      result.termination = interruptionOf(deadline);
+      return result;
+    }
+    result.termination = Termination::kSolved;
+    result.plan = placement.plan();
+    certifyByLowerBound(result, objective_, "conflict_optimizer");
+    return result;
+  }
+  result.termination = Termination::kNoPlanFound;
+  result.message =
+      "conflict optimisation failed in every horizon; it is incomplete: try another "
+      "solver";
+  return result;
+}
+
+}  // namespace split_mapf

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "solver/search/eviction_search.h"
+#include "split_mapf/core/deadline.h"
+#include "split_mapf/core/instance.h"
+#include "split_mapf/core/plan.h"
+#include "split_mapf/core/random.h"
+
+namespace split_mapf {
+
+/// The state of a conflict optimisation: who is placed and where, who waits, what everybody weighs.
+/// The placed paths never conflict. Not thread-safe.
+class Placement {
+ public:
+  enum class Outcome { kDone, kSpent, kExhausted, kInterrupted };
+
+  /// @param queue  everybody, in the order of the first placing. The instance outlives this object.
+  Placement(const Instance& instance, const std::vector<std::uint32_t>& queue, std::uint64_t seed);
+
+  struct Effort {
+    std::uint64_t placements = 0;       ///< in this run
+    std::uint64_t expansion_limit = 0;  ///< in all runs; 0: none
+    /// One placing in so many departs a random while later, as some knots need a robot that lets
+    /// the others pass first; 0: none does.
+    std::uint32_t delayed_one_in = 0;
+  };
+  /// Places who waits until nobody does or the effort is spent. @pre horizon >= every robot's
+  /// shortest path.
+  Outcome run(std::uint32_t horizon, const Effort& effort, const Deadline& deadline);
+  std::uint64_t expansions() const { return expansions_; }
+  const Plan& plan() const { return plan_; }
+
+ private:
+  void remove(std::uint32_t robot);
+  void requeue(std::uint32_t robot);
+  std::uint32_t drawDeparture(std::uint32_t robot, std::uint32_t horizon, std::uint32_t one_in);
+
+  const Instance& instance_;
+  RandomEngine engine_;
+  EvictionSearch search_;
+  PathTable table_;
+  Plan plan_;                           // an empty path: waits
+  std::deque<std::uint32_t> queue_;     // next first
+  std::vector<std::uint32_t> queued_;   // how often, by robot
+  std::vector<std::uint32_t> weights_;  // by robot
+  std::uint64_t expansions_ = 0;
+};
+
+}  // namespace split_mapf

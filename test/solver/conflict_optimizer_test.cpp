@@ -1,0 +1,79 @@
+#include "split_mapf/solver/conflict_optimizer.h"
+
+#include <gtest/gtest.h>
+
+#include "split_mapf/core/generator.h"
+#include "split_mapf/core/validate.h"
+#include "support/ascii_grid.h"
+
+namespace split_mapf {
+namespace {
+
+SolveResult solve(const Instance& instance, Objective objective,
+                  std::map<std::string, std::string> values = {}) {
+  SolverOptions options;
+  options.objective = objective;
+  options.values = std::move(values);
+  return ConflictOptimizerSolver(options).solve(instance, Deadline(20));
+}
+
+Instance crowded() {
+  GeneratorOptions options;
+  options.width = options.height = 16;
+  options.density = 0.1;
+  options.robots = 90;
+  const GeneratedProblem problem = generateProblem(options);
+  return Instance(problem.grid, problem.starts, problem.goals);
+}
+
+TEST(ConflictOptimizer, ACrowdKeepsTheMakespanBoundAndIsCertified) {
+  const Instance instance = crowded();
+  const SolveResult result = solve(instance, Objective::kMakespan);
+  ASSERT_EQ(result.termination, Termination::kSolved);
+  EXPECT_TRUE(validate(instance, *result.plan).empty());
+  EXPECT_EQ(makespanOf(*result.plan), makespanLowerBound(instance));
+  EXPECT_TRUE(result.optimal);
+  EXPECT_EQ(result.certified_by, "conflict_optimizer");
+}
+
+TEST(ConflictOptimizer, AHorizonOutOfReachGivesWayToALongerOne) {
+  // One of the two has to wait in the siding: the bound of 4 steps can't be kept.
+  const Instance instance =
+      test::instanceFromAscii({"##.##", "a...b", "#####"}, {"##.##", "b...a", "#####"});
+  const SolveResult result = solve(instance, Objective::kMakespan);
+  ASSERT_EQ(result.termination, Termination::kSolved);
+  EXPECT_TRUE(validate(instance, *result.plan).empty());
+  EXPECT_GT(makespanOf(*result.plan), 4U);
+  EXPECT_FALSE(result.optimal);
+  EXPECT_EQ(result.lower_bound, 4U);
+  EXPECT_GT(result.high_level_nodes, 1U) << "horizons";
+}
+
+TEST(ConflictOptimizer, SlackLetsRobotsArriveLater) {
+  const Instance instance = crowded();
+  const SolveResult tight = solve(instance, Objective::kSumOfCosts, {{"slack", "0"}});
+  const SolveResult loose = solve(instance, Objective::kSumOfCosts, {{"slack", "40"}});
+  ASSERT_TRUE(tight.plan && loose.plan);
+  EXPECT_EQ(makespanOf(*tight.plan), makespanLowerBound(instance));
+  EXPECT_GT(makespanOf(*loose.plan), makespanLowerBound(instance));
+  EXPECT_LE(makespanOf(*loose.plan), makespanLowerBound(instance) + 40);
+}
+
+TEST(ConflictOptimizer, FewPlacementsLeadToALongerHorizonSooner) {
+  const Instance instance = crowded();
+  const SolveResult patient = solve(instance, Objective::kMakespan, {{"placements", "30"}});
+  const SolveResult hasty = solve(instance, Objective::kMakespan, {{"placements", "1"}});
+  ASSERT_TRUE(patient.plan && hasty.plan);
+  EXPECT_EQ(patient.high_level_nodes, 1U);
+  EXPECT_GT(hasty.high_level_nodes, 1U);
+}
+
+TEST(ConflictOptimizer, AnUnsolvableKnotEndsWithoutAClaim) {
+  const Instance instance = test::instanceFromAscii({"ab."}, {"ba."});
+  const SolveResult result = solve(instance, Objective::kMakespan);
+  EXPECT_EQ(result.termination, Termination::kNoPlanFound);
+  EXPECT_FALSE(result.message.empty());
+}
+
+}  // namespace
+}  // namespace split_mapf
