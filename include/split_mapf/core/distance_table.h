@@ -35,6 +35,11 @@ class DistanceTable {
     return d != kNarrowUnknown ? d : search(v);
   }
   bool isWide() const { return !wide_.empty(); }
+  /// The entries of a table of kAll that takes 16 bits, by vertex, 0xffff where there is no way;
+  /// null for any other table. For loops that read nothing but distances.
+  const std::uint16_t* narrowEntries() const {
+    return graph_ == nullptr && wide_.empty() ? narrow_.data() : nullptr;
+  }
 
  private:
   static constexpr std::uint16_t kNarrowUnknown = 0xffffU;

@@ -34,6 +34,10 @@ struct RobotConstraints {
     move_bans.clear();
     earliest_arrival = 0;
   }
+  bool bansAt(Vertex v) const {
+    return std::any_of(vertex_bans.begin(), vertex_bans.end(),
+                       [&](const VertexBan& ban) { return ban.vertex == v; });
+  }
   bool bansMove(Vertex from, Vertex to, std::uint32_t step) const {
     return std::any_of(move_bans.begin(), move_bans.end(), [&](const MoveBan& ban) {
       return ban.step == step && ban.from == from && ban.to == to;

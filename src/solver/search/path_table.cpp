@@ -3,6 +3,13 @@
 #include <algorithm>
 
 namespace split_mapf {
+namespace {
+
+constexpr std::uint32_t kNobody = 0xffffffffU;
+
+bool beginsBefore(const Stay& stay, std::uint32_t step) { return stay.begin < step; }
+
+}  // namespace
 
 void PathTable::insert(std::uint32_t robot, const Path& path) {
   forEachStay(path, [&](Vertex v, std::uint32_t begin, std::uint32_t end, Vertex next) {
@@ -10,21 +17,30 @@ void PathTable::insert(std::uint32_t robot, const Path& path) {
     auto place = stays.end();
     while (place != stays.begin() && begin < (place - 1)->begin) --place;
     stays.insert(place, {begin, end, robot, next});
+    timelines_[v].clear();
   });
 }
 
 void PathTable::remove(std::uint32_t robot, const Path& path) {
   forEachStay(path, [&](Vertex v, std::uint32_t begin, std::uint32_t, Vertex) {
     std::vector<Stay>& stays = stays_[v];
-    const auto place = std::find_if(stays.begin(), stays.end(), [&](const Stay& s) {
-      return s.begin == begin && s.robot == robot;
-    });
+    auto place = std::lower_bound(stays.begin(), stays.end(), begin, beginsBefore);
+    while (place->robot != robot) ++place;
     stays.erase(place);
+    timelines_[v].clear();
   });
 }
 
 void PathTable::clear() {
   for (std::vector<Stay>& stays : stays_) stays.clear();
+  for (Timeline& timeline : timelines_) timeline.clear();
+}
+
+const Timeline& PathTable::timeline(Vertex v) const {
+  static const Timeline undisturbed = {{0, kForever, 0, 0}};
+  if (stays_[v].empty()) return undisturbed;
+  if (timelines_[v].empty()) builder_.build(stays_[v], kNobody, timelines_[v]);
+  return timelines_[v];
 }
 
 std::uint32_t PathTable::countSwaps(std::uint32_t robot, Vertex from, Vertex to,

@@ -3,27 +3,18 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/search/stay.h"
+#include "solver/search/timeline.h"
 #include "split_mapf/core/plan.h"
 
 namespace split_mapf {
 
-/// Time steps without end: a robot at its goal stays until then.
-constexpr std::uint32_t kForever = 0x7fffffffU;
-
-/// One unbroken visit of a robot to a vertex.
-struct Stay {
-  std::uint32_t begin = 0;  ///< first step at the vertex
-  std::uint32_t end = 0;    ///< first step elsewhere; kForever for the last visit
-  std::uint32_t robot = 0;
-  Vertex next = kNoVertex;  ///< where the robot is at step `end`; kNoVertex after the last visit
-};
-
 /// Who is where and when: for each vertex the visits to it, ordered by their begin. Visits of
 /// different robots may overlap, as plans under construction have conflicts. Memory: one entry a
-/// visit, whatever the horizon. Not thread-safe.
+/// visit, whatever the horizon, and as much again for timelines. Not thread-safe.
 class PathTable {
  public:
-  explicit PathTable(std::uint32_t vertices) : stays_(vertices) {}
+  explicit PathTable(std::uint32_t vertices) : stays_(vertices), timelines_(vertices) {}
 
   /// @pre the robot has no path in the table; the path ends at its arrival.
   void insert(std::uint32_t robot, const Path& path);
@@ -32,28 +23,17 @@ class PathTable {
   void clear();
 
   const std::vector<Stay>& at(Vertex v) const { return stays_[v]; }
-  /// Whether some robot other than `robot` moves from `to` to `from` while it would move from
-  /// `from` to `to`, arriving at step `t`.
+  /// The timeline that all visits at `v` make. Kept until a path through `v` comes or goes: a
+  /// search meets thousands of vertices, a changed path touches hundreds.
+  const Timeline& timeline(Vertex v) const;
+  /// How many robots other than `robot` move from `to` to `from` while it would move from `from`
+  /// to `to`, arriving at step `t`.
   std::uint32_t countSwaps(std::uint32_t robot, Vertex from, Vertex to, std::uint32_t t) const;
 
  private:
   std::vector<std::vector<Stay>> stays_;
+  mutable std::vector<Timeline> timelines_;  // empty: to be built
+  mutable TimelineBuilder builder_;
 };
-
-/// Calls visit(vertex, begin, end, next) for each unbroken visit of a path, in order.
-template <typename Visit>
-void forEachStay(const Path& path, Visit visit) {
-  const auto size = static_cast<std::uint32_t>(path.size());
-  for (std::uint32_t begin = 0; begin < size;) {
-    std::uint32_t end = begin + 1;
-    while (end < size && path[end] == path[begin]) ++end;
-    if (end == size) {
-      visit(path[begin], begin, kForever, kNoVertex);
-    } else {
-      visit(path[begin], begin, end, path[end]);
-    }
-    begin = end;
-  }
-}
 
 }  // namespace split_mapf

@@ -10,30 +10,49 @@ constexpr std::uint32_t kMostConflicts = 63;
 // Collisions that one step beyond the firm arrival weighs.
 constexpr std::uint32_t kFirmWeight = 8;
 constexpr std::uint64_t kPollEvery = 1024;
+// States for which there is room from the start.
+constexpr std::size_t kStatesAVertex = 32;
+constexpr std::size_t kMostReserved = std::size_t{1} << 20;
+
+/// The first segment that ends behind `step`; `count` if there is none. Without branches to guess,
+/// which would cost more than all else in the search.
+std::uint32_t firstEndingAfter(const Segment* segments, std::uint32_t count, std::uint32_t step) {
+  const Segment* first = segments;
+  for (std::uint32_t left = count; left > 1;) {
+    const std::uint32_t half = left / 2;
+    first += half * static_cast<std::uint32_t>(first[half - 1].end <= step);
+    left -= half;
+  }
+  const auto number = static_cast<std::uint32_t>(first - segments);
+  return number + (number < count && first->end <= step ? 1 : 0);
+}
 
 }  // namespace
 
-SafeIntervalSearch::SafeIntervalSearch(const Graph& graph)
-    : graph_(graph),
-      met_(graph.size(), 0),
-      first_segment_(graph.size(), 0),
-      segment_count_(graph.size(), 0) {}
+SafeIntervalSearch::SafeIntervalSearch(const Graph& graph) : graph_(graph), met_(graph.size()) {
+  // Address space, not memory: growing would touch fresh pages at every doubling.
+  states_.reserve(std::min<std::size_t>(std::size_t{graph.size()} * kStatesAVertex, kMostReserved));
+}
 
 SearchAnswer SafeIntervalSearch::search(const SearchQuery& query, const Deadline& deadline) {
   query_ = &query;
+  flat_ = query.distances->narrowEntries();
   SearchAnswer answer;
   reset();
   if (!prepareGoal() || !pushStart()) return answer;
   while (queued_ > 0) {
     const std::uint32_t index = pop();
-    const State& state = states_[index];
-    if (state.segment == kNone) {
+    const State state = states_[index];
+    if (state.kind == Kind::kArrival) {
       answer.path = reconstruct(index);
       return answer;
     }
-    Best& best = best_[state.segment];
-    if (state.time >= best.closed_time) continue;
-    best.closed_time = state.time;
+    if (state.kind == Kind::kLater) {
+      const State source = states_[state.parent];
+      expandMoves(source, state.parent, state.time);
+      continue;
+    }
+    if (!close(state)) continue;
     if (++answer.expansions % kPollEvery == 0 && deadline.expired()) {
       answer.interrupted = true;
       return answer;
@@ -51,39 +70,72 @@ void SafeIntervalSearch::reset() {
         kNone);
   }
   states_.clear();
-  segments_.clear();
   best_.clear();
+  own_count_ = 0;
   current_bucket_ = last_bucket_ = queued_ = 0;
   if (++search_number_ == 0) {
-    std::fill(met_.begin(), met_.end(), 0);
+    for (Meeting& meeting : met_) meeting.search = 0;
     search_number_ = 1;
   }
 }
 
-std::uint32_t SafeIntervalSearch::segmentsOf(Vertex v, std::uint32_t& count) {
-  if (met_[v] != search_number_) {
-    met_[v] = search_number_;
-    first_segment_[v] = static_cast<std::uint32_t>(segments_.size());
-    builder_.build(v, query_->robot, query_->others, query_->mode, query_->constraints, segments_);
-    segment_count_[v] = static_cast<std::uint32_t>(segments_.size()) - first_segment_[v];
-    best_.resize(segments_.size());
+bool SafeIntervalSearch::close(const State& state) {
+  Best& best = best_[state.place];
+  if (state.time >= best.closed_time) return false;
+  best.closed_time = state.time;
+  return true;
+}
+
+const SafeIntervalSearch::Meeting& SafeIntervalSearch::meet(Vertex v) {
+  Meeting& meeting = met_[v];
+  if (meeting.search == search_number_) return meeting;
+  meeting.search = search_number_;
+  const Timeline& timeline = timelineOf(v);
+  meeting.first_place = static_cast<std::uint32_t>(best_.size());
+  meeting.count = static_cast<std::uint32_t>(timeline.size());
+  meeting.segments = timeline.data();
+  best_.resize(best_.size() + timeline.size());
+  return meeting;
+}
+
+const Timeline& SafeIntervalSearch::timelineOf(Vertex v) {
+  static const Timeline undisturbed = {{0, kForever, 0, 0}};
+  const Timeline* timeline = &undisturbed;
+  if (query_->mode != OthersAre::kIgnored) {
+    const std::vector<Stay>& stays = query_->others->at(v);
+    const bool holds_robot = std::any_of(
+        stays.begin(), stays.end(), [&](const Stay& stay) { return stay.robot == query_->robot; });
+    if (holds_robot) {
+      Timeline& own = ownTimeline();
+      builder_.build(stays, query_->robot, own);
+      timeline = &own;
+    } else {
+      timeline = &query_->others->timeline(v);
+    }
   }
-  count = segment_count_[v];
-  return first_segment_[v];
+  if (query_->constraints == nullptr || !query_->constraints->bansAt(v)) return *timeline;
+  Timeline& cut = ownTimeline();
+  cut = *timeline;
+  cutBans(v, *query_->constraints, cut);
+  return cut;
+}
+
+Timeline& SafeIntervalSearch::ownTimeline() {
+  if (own_count_ == own_timelines_.size()) own_timelines_.emplace_back();
+  return own_timelines_[own_count_++];
 }
 
 bool SafeIntervalSearch::prepareGoal() {
-  std::uint32_t count = 0;
-  goal_first_segment_ = segmentsOf(query_->distances->goal(), count);
-  if (count == 0 || segments_[goal_first_segment_ + count - 1].end != kForever) return false;
-  collisions_after_.assign(count, 0);
-  std::uint32_t i = count - 1;
-  while (i > 0 &&
-         segments_[goal_first_segment_ + i - 1].end == segments_[goal_first_segment_ + i].begin) {
-    collisions_after_[i - 1] = collisions_after_[i] + segments_[goal_first_segment_ + i].entering;
-    --i;
+  const Meeting& goal = meet(query_->distances->goal());
+  const Segment* segments = goal.segments;
+  if (goal.count == 0) return false;
+  std::uint32_t i = goal.count - 1;
+  if (segments[i].end != kForever || blocked(segments[i])) return false;
+  collisions_after_.assign(goal.count, 0);
+  for (; i > 0 && segments[i - 1].end == segments[i].begin && !blocked(segments[i - 1]); --i) {
+    collisions_after_[i - 1] = collisions_after_[i] + segments[i].entering;
   }
-  earliest_hold_ = segments_[goal_first_segment_ + i].begin;
+  earliest_hold_ = segments[i].begin;
   if (query_->constraints != nullptr) {
     earliest_hold_ = std::max(earliest_hold_, query_->constraints->earliest_arrival);
   }
@@ -91,7 +143,7 @@ bool SafeIntervalSearch::prepareGoal() {
 }
 
 bool SafeIntervalSearch::pushStart() {
-  const std::uint32_t distance = (*query_->distances)(query_->start);
+  const std::uint32_t distance = distanceOf(query_->start);
   if (distance == DistanceTable::kUnreachable) return false;
   first_estimate_ = estimateOf(0, distance);
   if (first_estimate_ > query_->latest_arrival) return false;
@@ -101,14 +153,19 @@ bool SafeIntervalSearch::pushStart() {
   const std::size_t needed = static_cast<std::size_t>(kMostConflicts + 1) * estimates_;
   if (buckets_.size() < needed) buckets_.resize(needed, kNone);
 
-  std::uint32_t count = 0;
-  const std::uint32_t first = segmentsOf(query_->start, count);
-  if (count == 0 || segments_[first].begin > 0) return false;
-  const State start{first, query_->start, 0, kNone, segments_[first].present, kNone};
+  const Meeting& at = meet(query_->start);
+  if (at.count == 0 || at.segments[0].begin > 0 || blocked(at.segments[0])) return false;
+  State start;
+  start.place = at.first_place;
+  start.vertex = query_->start;
+  start.time = 0;
+  start.parent = kNone;
+  start.conflicts = at.segments[0].present;
+  start.kind = Kind::kVisit;
   if (distance == 0 && earliest_hold_ == 0) {
     State arrived = start;
-    arrived.segment = kNone;
-    arrived.conflicts += collisions_after_[0];
+    arrived.kind = Kind::kArrival;
+    arrived.conflicts = static_cast<std::uint16_t>(arrived.conflicts + collisions_after_[0]);
     push(arrived, first_estimate_);
   }
   push(start, first_estimate_);
@@ -132,9 +189,9 @@ std::uint32_t SafeIntervalSearch::weightOf(std::uint32_t conflicts, std::uint32_
 void SafeIntervalSearch::push(const State& state, std::uint32_t estimate) {
   std::size_t bucket = estimate - first_estimate_;
   if (query_->mode == OthersAre::kCounted) {
-    bucket += static_cast<std::size_t>(weightOf(state.conflicts, estimate)) * estimates_;
+    bucket += std::size_t{weightOf(state.conflicts, estimate)} * estimates_;
   } else if (bucket >= buckets_.size()) {
-    buckets_.resize(2 * bucket + 64, kNone);
+    buckets_.resize(2 * bucket + 1, kNone);
   }
   const auto index = static_cast<std::uint32_t>(states_.size());
   states_.push_back(state);
@@ -153,11 +210,10 @@ std::uint32_t SafeIntervalSearch::pop() {
   return index;
 }
 
-void SafeIntervalSearch::pushToSegment(const State& state, std::uint32_t distance) {
-  if (distance == DistanceTable::kUnreachable) return;
+void SafeIntervalSearch::pushVisit(const State& state, std::uint32_t distance) {
   const std::uint32_t estimate = estimateOf(state.time, distance);
   if (estimate > query_->latest_arrival) return;
-  Best& best = best_[state.segment];
+  Best& best = best_[state.place];
   if (state.time >= best.closed_time) return;
   if (state.time >= best.pushed_time && state.conflicts >= best.pushed_conflicts) return;
   if (best.pushed_conflicts >= state.conflicts) {
@@ -167,100 +223,115 @@ void SafeIntervalSearch::pushToSegment(const State& state, std::uint32_t distanc
   push(state, estimate);
 }
 
+void SafeIntervalSearch::pushLater(const State& state, std::uint32_t index, std::uint32_t time) {
+  // A move ends at most one step closer to the goal.
+  const std::uint32_t distance = distanceOf(state.vertex);
+  const std::uint32_t estimate = estimateOf(time, distance > 0 ? distance - 1 : 0);
+  if (estimate > query_->latest_arrival) return;
+  State later = state;
+  later.time = time;
+  later.parent = index;
+  later.kind = Kind::kLater;
+  push(later, estimate);
+}
+
 void SafeIntervalSearch::expand(std::uint32_t index) {
   const State state = states_[index];
-  expandWait(state, index);
-  for (const Vertex to : graph_.neighbours(state.vertex)) expandMoves(state, index, to);
+  const Meeting& at = met_[state.vertex];
+  expandWait(state, at.segments[state.place - at.first_place], index);
+  expandMoves(state, index, state.time + 1);
 }
 
-void SafeIntervalSearch::expandWait(const State& state, std::uint32_t index) {
-  const std::uint32_t next = state.segment + 1;
-  if (next >= first_segment_[state.vertex] + segment_count_[state.vertex]) return;
-  if (segments_[next].begin != segments_[state.segment].end) return;
-  pushToSegment({next, state.vertex, segments_[next].begin, index,
-                 state.conflicts + segments_[next].entering, kNone},
-                (*query_->distances)(state.vertex));
+void SafeIntervalSearch::expandWait(const State& state, const Segment& segment,
+                                    std::uint32_t index) {
+  const Meeting& at = met_[state.vertex];
+  const std::uint32_t number = state.place - at.first_place + 1;
+  if (number >= at.count) return;
+  const Segment& next = at.segments[number];
+  if (next.begin != segment.end || blocked(next)) return;
+  State waited = state;
+  ++waited.place;
+  waited.time = next.begin;
+  waited.parent = index;
+  waited.conflicts = static_cast<std::uint16_t>(state.conflicts + next.entering);
+  pushVisit(waited, distanceOf(state.vertex));
 }
 
-void SafeIntervalSearch::expandMoves(const State& state, std::uint32_t index, Vertex to) {
-  const std::uint32_t leave_by = segments_[state.segment].end;  // latest step to arrive elsewhere
-  std::uint32_t count = 0;
-  const std::uint32_t first = segmentsOf(to, count);
-  const bool is_goal = to == query_->distances->goal();
-  for (std::uint32_t segment = first; segment < first + count; ++segment) {
-    const Segment& there = segments_[segment];
-    if (there.end <= state.time + 1) continue;
-    if (there.begin > leave_by) break;
-    const Window window{std::max(state.time + 1, there.begin), std::min(leave_by, there.end - 1)};
-    if (window.first > window.last) continue;
-    if (is_goal) tryArrive(state, index, segment, window);
-    tryEnter(state, index, to, segment, window);
+void SafeIntervalSearch::expandMoves(const State& state, std::uint32_t index, std::uint32_t from) {
+  const Meeting& here = met_[state.vertex];
+  const std::uint32_t leave_by = here.segments[state.place - here.first_place].end;
+  const bool at_once = from == state.time + 1;
+  std::uint32_t later = kForever;
+  for (const Vertex to : graph_.neighbours(state.vertex)) {
+    const std::uint32_t distance = distanceOf(to);
+    if (distance > query_->latest_arrival || from + distance > query_->latest_arrival) continue;
+    const Meeting& there = meet(to);
+    std::uint32_t number = firstEndingAfter(there.segments, there.count, from);
+    if (number < there.count && there.segments[number].begin <= from) {
+      const bool open = at_once || there.segments[number].begin == from;
+      if (open && !blocked(there.segments[number])) enter(state, index, to, number, from);
+      ++number;
+    }
+    while (number < there.count && blocked(there.segments[number])) ++number;
+    if (number < there.count) later = std::min(later, there.segments[number].begin);
   }
+  if (later <= leave_by && later < kForever) pushLater(state, index, later);
 }
 
-bool SafeIntervalSearch::firstAllowed(Vertex from, Vertex to, Window window,
-                                      std::uint32_t& time) const {
-  const bool banned_moves =
-      query_->constraints != nullptr && !query_->constraints->move_bans.empty();
-  const bool avoid_swaps = query_->mode == OthersAre::kObstacles;
-  for (time = window.first; time <= window.last; ++time) {
-    if (banned_moves && query_->constraints->bansMove(from, to, time)) continue;
-    if (avoid_swaps && swaps(from, to, time) > 0) continue;
-    return true;
-  }
-  return false;
+bool SafeIntervalSearch::firstAllowed(Vertex from, Vertex to, std::uint32_t& time,
+                                      std::uint32_t last) const {
+  if (query_->constraints == nullptr || query_->constraints->move_bans.empty()) return time <= last;
+  while (time <= last && query_->constraints->bansMove(from, to, time)) ++time;
+  return time <= last;
 }
 
-std::uint32_t SafeIntervalSearch::swaps(Vertex from, Vertex to, std::uint32_t time) const {
-  return query_->others->countSwaps(query_->robot, from, to, time);
+std::uint32_t SafeIntervalSearch::swaps(const State& state, Vertex to, const Segment& there,
+                                        std::uint32_t time) const {
+  // Who swaps with the robot leaves `to` and enters its own vertex: there both timelines are cut.
+  if (time != there.begin || query_->mode == OthersAre::kIgnored) return 0;
+  const Meeting& here = met_[state.vertex];
+  if (time != here.segments[state.place - here.first_place].end) return 0;
+  return query_->others->countSwaps(query_->robot, state.vertex, to, time);
 }
 
-void SafeIntervalSearch::tryEnter(const State& state, std::uint32_t index, Vertex to,
-                                  std::uint32_t segment, Window window) {
-  const std::uint32_t distance = (*query_->distances)(to);
-  std::uint32_t time = 0;
-  if (!firstAllowed(state.vertex, to, window, time)) return;
-  State entered{segment, to, time, index, state.conflicts + segments_[segment].present, kNone};
-  if (query_->mode != OthersAre::kCounted) return pushToSegment(entered, distance);
-  const std::uint32_t met = swaps(state.vertex, to, time);
-  entered.conflicts += met;
-  pushToSegment(entered, distance);
-  // Coming a little later may avoid the swap.
-  while (met > 0 && time < window.last) {
-    if (!firstAllowed(state.vertex, to, {time + 1, window.last}, time)) return;
-    if (swaps(state.vertex, to, time) > 0) continue;
-    entered.time = time;
-    entered.conflicts -= met;
-    return pushToSegment(entered, distance);
-  }
+void SafeIntervalSearch::enter(const State& state, std::uint32_t index, Vertex to,
+                               std::uint32_t number, std::uint32_t time) {
+  const Meeting& here = met_[state.vertex];
+  const Meeting& at = met_[to];
+  const Segment& there = at.segments[number];
+  const std::uint32_t leave_by = here.segments[state.place - here.first_place].end;
+  const std::uint32_t last = std::min(leave_by, there.end - 1);
+  if (to == query_->distances->goal()) arrive(state, index, number, time, last);
+  if (!firstAllowed(state.vertex, to, time, last)) return;
+  const std::uint32_t met = swaps(state, to, there, time);
+  if (met > 0 && query_->mode == OthersAre::kObstacles) return;
+  State entered = state;
+  entered.place = at.first_place + number;
+  entered.vertex = to;
+  entered.time = time;
+  entered.parent = index;
+  entered.conflicts = static_cast<std::uint16_t>(state.conflicts + there.present + met);
+  pushVisit(entered, distanceOf(to));
 }
 
-void SafeIntervalSearch::tryArrive(const State& state, std::uint32_t index, std::uint32_t segment,
-                                   Window window) {
-  window.first = std::max(window.first, earliest_hold_);
-  std::uint32_t time = 0;
-  if (window.first > window.last) return;
-  if (!firstAllowed(state.vertex, query_->distances->goal(), window, time)) return;
-  if (time > query_->latest_arrival) return;
-  State arrived{kNone,
-                query_->distances->goal(),
-                time,
-                index,
-                state.conflicts + segments_[segment].present +
-                    collisions_after_[segment - goal_first_segment_],
-                kNone};
-  if (query_->mode != OthersAre::kCounted) return push(arrived, time);
-  const std::uint32_t met = swaps(state.vertex, arrived.vertex, time);
-  arrived.conflicts += met;
+void SafeIntervalSearch::arrive(const State& state, std::uint32_t index, std::uint32_t number,
+                                std::uint32_t time, std::uint32_t last) {
+  const Vertex goal = query_->distances->goal();
+  time = std::max(time, earliest_hold_);
+  if (!firstAllowed(state.vertex, goal, time, std::min(last, query_->latest_arrival))) return;
+  const Meeting& at = met_[goal];
+  const Segment& there = at.segments[number];
+  const std::uint32_t met = swaps(state, goal, there, time);
+  if (met > 0 && query_->mode == OthersAre::kObstacles) return;
+  State arrived = state;
+  arrived.place = at.first_place + number;
+  arrived.vertex = goal;
+  arrived.time = time;
+  arrived.parent = index;
+  arrived.conflicts =
+      static_cast<std::uint16_t>(state.conflicts + there.present + met + collisions_after_[number]);
+  arrived.kind = Kind::kArrival;
   push(arrived, time);
-  while (met > 0 && time < window.last) {
-    if (!firstAllowed(state.vertex, arrived.vertex, {time + 1, window.last}, time)) return;
-    if (time > query_->latest_arrival) return;
-    if (swaps(state.vertex, arrived.vertex, time) > 0) continue;
-    arrived.time = time;
-    arrived.conflicts -= met;
-    return push(arrived, time);
-  }
 }
 
 Path SafeIntervalSearch::reconstruct(std::uint32_t index) const {

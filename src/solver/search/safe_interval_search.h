@@ -1,14 +1,24 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <vector>
 
+#include "solver/search/constraints.h"
+#include "solver/search/path_table.h"
 #include "solver/search/timeline.h"
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/distance_table.h"
 #include "split_mapf/core/plan.h"
 
 namespace split_mapf {
+
+/// What the other robots' paths mean to a search.
+enum class OthersAre {
+  kIgnored,    ///< they are not there
+  kCounted,    ///< running into them is allowed and counted
+  kObstacles,  ///< running into them is forbidden
+};
 
 /// One robot's question.
 struct SearchQuery {
@@ -37,8 +47,10 @@ struct SearchAnswer {
 /// collisions with the others, and among these the earliest arrival, that obeys the constraints and
 /// arrives in time; with others ignored or as obstacles it is the earliest arrival.
 /// Sources: Phillips and Likhachev, ICRA 2011 (safe intervals); Li et al., AAAI 2022 (soft
-/// obstacles cut intervals too). Deviations: a bucket queue instead of heaps, intervals built
-/// lazily a search, the goal's waiting time inside the heuristic.
+/// obstacles cut intervals too). Deviations: a bucket queue instead of heaps; the intervals of a
+/// vertex are kept by the path table between searches; a state first makes the moves that end at
+/// the next step and queues one continuation for all later ones, as most are never needed; the
+/// goal's waiting time inside the heuristic.
 /// Keeps its memory between calls; not thread-safe.
 class SafeIntervalSearch {
  public:
@@ -48,38 +60,61 @@ class SafeIntervalSearch {
  private:
   static constexpr std::uint32_t kNone = 0xffffffffU;
 
+  enum class Kind : std::uint16_t {
+    kVisit,    ///< enters a segment of the vertex at `time`
+    kArrival,  ///< enters the goal at `time` for good
+    kLater,    ///< the moves of its parent that end at `time` or later
+  };
   struct State {
-    std::uint32_t segment;  // index into segments_; kNone for an arrival at the goal for good
+    std::uint32_t place;  // of the segment among those met
     Vertex vertex;
     std::uint32_t time;
     std::uint32_t parent;
-    std::uint32_t conflicts;
-    std::uint32_t next;  // in its bucket
+    std::uint32_t next = kNone;  // in its bucket
+    std::uint16_t conflicts;
+    Kind kind;
   };
   struct Best {  // what was seen of a segment
     std::uint32_t closed_time = kNone;
     std::uint32_t pushed_time = kNone;
     std::uint32_t pushed_conflicts = kNone;
   };
-  struct Window {  // of the steps at which a move may end
-    std::uint32_t first;
-    std::uint32_t last;
+  struct Meeting {  // of a vertex with a search
+    std::uint32_t search = 0;
+    std::uint32_t first_place = 0;
+    std::uint32_t count = 0;
+    const Segment* segments = nullptr;
   };
 
   bool prepareGoal();
   bool pushStart();
-  std::uint32_t segmentsOf(Vertex v, std::uint32_t& count);
+  const Meeting& meet(Vertex v);
+  const Timeline& timelineOf(Vertex v);
+  Timeline& ownTimeline();
+  bool blocked(const Segment& segment) const {
+    return query_->mode == OthersAre::kObstacles && segment.present > 0;
+  }
+  std::uint32_t distanceOf(Vertex v) const {
+    if (flat_ == nullptr) return (*query_->distances)(v);
+    return flat_[v] != 0xffffU ? flat_[v] : DistanceTable::kUnreachable;
+  }
+  bool close(const State& state);
   void expand(std::uint32_t index);
-  void expandWait(const State& state, std::uint32_t index);
-  void expandMoves(const State& state, std::uint32_t index, Vertex to);
-  void tryEnter(const State& state, std::uint32_t index, Vertex to, std::uint32_t segment,
-                Window window);
-  void tryArrive(const State& state, std::uint32_t index, std::uint32_t segment, Window window);
-  bool firstAllowed(Vertex from, Vertex to, Window window, std::uint32_t& time) const;
-  std::uint32_t swaps(Vertex from, Vertex to, std::uint32_t time) const;
+  void expandWait(const State& state, const Segment& segment, std::uint32_t index);
+  /// The moves of a state that end at step `from` exactly, and those of the next step also into
+  /// segments that have begun before.
+  void expandMoves(const State& state, std::uint32_t index, std::uint32_t from);
+  void enter(const State& state, std::uint32_t index, Vertex to, std::uint32_t number,
+             std::uint32_t time);
+  void arrive(const State& state, std::uint32_t index, std::uint32_t number, std::uint32_t time,
+              std::uint32_t last);
+  bool firstAllowed(Vertex from, Vertex to, std::uint32_t& time, std::uint32_t last) const;
+  std::uint32_t swaps(const State& state, Vertex to, const Segment& there,
+                      std::uint32_t time) const;
   std::uint32_t weightOf(std::uint32_t conflicts, std::uint32_t estimate) const;
   void push(const State& state, std::uint32_t estimate);
-  void pushToSegment(const State& state, std::uint32_t distance);
+  void pushVisit(const State& state, std::uint32_t distance);
+  void pushLater(const State& state, std::uint32_t index, std::uint32_t time);
   std::uint32_t pop();
   std::uint32_t estimateOf(std::uint32_t time, std::uint32_t distance) const;
   void reset();
@@ -88,18 +123,18 @@ class SafeIntervalSearch {
   const Graph& graph_;
   TimelineBuilder builder_;
   const SearchQuery* query_ = nullptr;
+  const std::uint16_t* flat_ = nullptr;  // the distances, where they lie in one array
 
-  // Segments of the vertices that this search has met.
-  std::vector<std::uint32_t> met_;  // number of the search that met the vertex last
-  std::vector<std::uint32_t> first_segment_;
-  std::vector<std::uint32_t> segment_count_;
-  std::vector<Segment> segments_;
+  // What this search has met: segments of vertices, and what it knows of each.
+  std::vector<Meeting> met_;
   std::vector<Best> best_;
   std::uint32_t search_number_ = 0;
+  // Timelines that differ from the table's: without the robot itself, or cut by constraints.
+  std::deque<Timeline> own_timelines_;
+  std::size_t own_count_ = 0;
 
   // Goal: from this step on it can be held for good; collisions still to come from each segment.
   std::uint32_t earliest_hold_ = 0;
-  std::uint32_t goal_first_segment_ = 0;
   std::vector<std::uint32_t> collisions_after_;
 
   // Bucket queue over (weight, estimate), last in first out.

@@ -4,43 +4,21 @@
 
 namespace split_mapf {
 
-void TimelineBuilder::build(Vertex v, std::uint32_t robot, const PathTable* others, OthersAre mode,
-                            const RobotConstraints* constraints, std::vector<Segment>& out) {
-  const std::size_t first = out.size();
+void TimelineBuilder::build(const std::vector<Stay>& stays, std::uint32_t robot, Timeline& out) {
+  out.clear();
   intervals_.clear();
-  if (mode != OthersAre::kIgnored) {
-    for (const Stay& stay : others->at(v)) {
-      if (stay.robot != robot) intervals_.push_back({stay.begin, stay.end});
-    }
-  }
-  if (intervals_.empty()) {
-    out.push_back({0, kForever, 0, 0});
-  } else if (mode == OthersAre::kObstacles) {
-    appendFree(out);
-  } else {
-    appendCounted(out);
-  }
-  if (constraints != nullptr) cutBans(v, *constraints, first, out);
-}
-
-void TimelineBuilder::appendFree(std::vector<Segment>& out) {
-  std::uint32_t from = 0;
-  for (const Interval& taken : intervals_) {
-    if (from < taken.begin) out.push_back({from, taken.begin, 0, 0});
-    from = std::max(from, taken.end);
-  }
-  if (from < kForever) out.push_back({from, kForever, 0, 0});
-}
-
-void TimelineBuilder::appendCounted(std::vector<Segment>& out) {
   cuts_.clear();
   cuts_.push_back(0);
-  cuts_.push_back(kForever);
-  for (const Interval& taken : intervals_) {
-    cuts_.push_back(taken.begin);
-    cuts_.push_back(taken.end);
+  bool in_order = true;  // as long as no two visits overlap
+  for (const Stay& stay : stays) {
+    if (stay.robot == robot) continue;
+    in_order = in_order && cuts_.back() <= stay.begin;
+    intervals_.push_back({stay.begin, stay.end});
+    cuts_.push_back(stay.begin);
+    cuts_.push_back(stay.end);
   }
-  std::sort(cuts_.begin(), cuts_.end());
+  cuts_.push_back(kForever);
+  if (!in_order) std::sort(cuts_.begin(), cuts_.end());
   cuts_.erase(std::unique(cuts_.begin(), cuts_.end()), cuts_.end());
   std::size_t alive = 0;  // intervals before this one have ended
   for (std::size_t i = 0; i + 1 < cuts_.size(); ++i) {
@@ -55,27 +33,26 @@ void TimelineBuilder::appendCounted(std::vector<Segment>& out) {
   }
 }
 
-void TimelineBuilder::cutBans(Vertex v, const RobotConstraints& constraints, std::size_t first,
-                              std::vector<Segment>& out) {
+void cutBans(Vertex v, const RobotConstraints& constraints, Timeline& timeline) {
   for (const RobotConstraints::VertexBan& ban : constraints.vertex_bans) {
     if (ban.vertex != v) continue;
-    for (std::size_t i = first; i < out.size(); ++i) {
-      const Segment whole = out[i];
+    for (std::size_t i = 0; i < timeline.size(); ++i) {
+      const Segment whole = timeline[i];
       if (whole.end <= ban.begin || ban.end <= whole.begin) continue;
       const Segment head{whole.begin, std::max(whole.begin, ban.begin), whole.present,
                          whole.entering};
       const Segment tail{std::min(whole.end, ban.end), whole.end, whole.present, 0};
       const auto at = static_cast<std::ptrdiff_t>(i);
       if (head.begin < head.end && tail.begin < tail.end) {
-        out[i] = head;
-        out.insert(out.begin() + at + 1, tail);
+        timeline[i] = head;
+        timeline.insert(timeline.begin() + at + 1, tail);
         ++i;
       } else if (head.begin < head.end) {
-        out[i] = head;
+        timeline[i] = head;
       } else if (tail.begin < tail.end) {
-        out[i] = tail;
+        timeline[i] = tail;
       } else {
-        out.erase(out.begin() + at);
+        timeline.erase(timeline.begin() + at);
         --i;
       }
     }

@@ -4,16 +4,9 @@
 #include <vector>
 
 #include "solver/search/constraints.h"
-#include "solver/search/path_table.h"
+#include "solver/search/stay.h"
 
 namespace split_mapf {
-
-/// What the other robots' paths mean to a search.
-enum class OthersAre {
-  kIgnored,    ///< they are not there
-  kCounted,    ///< running into them is allowed and counted
-  kObstacles,  ///< running into them is forbidden
-};
 
 /// A maximal run of steps [begin, end) during which a vertex may be occupied and the others there
 /// do not change.
@@ -24,20 +17,17 @@ struct Segment {
   std::uint16_t entering = 0;  ///< of these, the ones that come with its first step
 };
 
-/// Cuts the time at `v` into segments, in order; forbidden steps are left out. Used by the search
-/// the first time it meets a vertex. Cost: O(visits at v + bans).
+/// The steps at one vertex as segments, in order.
+using Timeline = std::vector<Segment>;
+
+/// Cuts the time at a vertex into segments. Keeps its memory; not thread-safe.
 class TimelineBuilder {
  public:
-  /// Appends the segments of `v` to `out`. `constraints` may be null when none concerns `v`.
-  void build(Vertex v, std::uint32_t robot, const PathTable* others, OthersAre mode,
-             const RobotConstraints* constraints, std::vector<Segment>& out);
+  /// Replaces `out` by the timeline that the visits `stays` make, the robot's own left out. It
+  /// covers every step. @pre `stays` is ordered by begin. Cost: O(n log n) for n visits.
+  void build(const std::vector<Stay>& stays, std::uint32_t robot, Timeline& out);
 
  private:
-  void appendFree(std::vector<Segment>& out);
-  void appendCounted(std::vector<Segment>& out);
-  static void cutBans(Vertex v, const RobotConstraints& constraints, std::size_t first,
-                      std::vector<Segment>& out);
-
   struct Interval {
     std::uint32_t begin;
     std::uint32_t end;
@@ -45,5 +35,8 @@ class TimelineBuilder {
   std::vector<Interval> intervals_;
   std::vector<std::uint32_t> cuts_;
 };
+
+/// Takes the steps out of a timeline of `v` that the constraints forbid there.
+void cutBans(Vertex v, const RobotConstraints& constraints, Timeline& timeline);
 
 }  // namespace split_mapf
