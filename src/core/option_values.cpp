@@ -1,6 +1,8 @@
 #include "split_mapf/core/option_values.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <sstream>
 #include <stdexcept>
 
 #include "split_mapf/core/error.h"
@@ -29,6 +31,21 @@ std::uint64_t OptionValues::count(const std::string& name, std::uint64_t fallbac
     throw OptionError("option " + name + "=" + text + ": expected a whole number, 0 or greater");
   }
   return std::stoull(text);
+}
+
+double OptionValues::number(const std::string& name, double fallback, double least,
+                            double most) const {
+  const auto found = values_.find(name);
+  if (found == values_.end()) return fallback;
+  const std::string& text = found->second;
+  const bool plain =
+      !text.empty() && text.find_first_not_of("0123456789.eE+-") == std::string::npos;
+  char* stop = nullptr;
+  const double value = plain ? std::strtod(text.c_str(), &stop) : 0;
+  if (plain && *stop == '\0' && value >= least && value <= most) return value;
+  std::ostringstream range;
+  range << least << " to " << most;
+  throw OptionError("option " + name + "=" + text + ": expected a number from " + range.str());
 }
 
 bool OptionValues::flag(const std::string& name, bool fallback) const {

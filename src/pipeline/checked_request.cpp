@@ -14,12 +14,14 @@ SplitSpec checkSplit(const PlanRequest& request,
                      const std::map<std::string, std::string>& options) {
   SplitSpec split = parseSplitSpec(request.split);
   if (split.kind == SplitSpec::Kind::kAuto) split = SplitSpec{};
-  if (split.space) {
-    throw SplitSpecError("split '" + request.split +
-                         "': space splits are not available yet; time splits (Kt) and none are");
-  }
   if (!options.empty() && split.kind == SplitSpec::Kind::kNone) {
     throw OptionError("split options need a split, but split '" + request.split + "' makes none");
+  }
+  if (split.space) return split;
+  for (const SplitOptionInfo& option : splitOptions()) {
+    if (!option.space_only || options.count(option.name) == 0) continue;
+    throw OptionError("split option '" + option.name + "' is for space splits, but split '" +
+                      request.split + "' has no space part");
   }
   return split;
 }

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "pipeline/piece_ladder.h"
+#include "pipeline/phase_ladder.h"
 #include "pipeline/replan_singly.h"
 #include "split_mapf/core/compaction.h"
 #include "split_mapf/core/validate.h"
@@ -53,7 +53,13 @@ void PlanRun::runStages() {
   log_.enterStage("distances");
   if (!computeDistances()) return interrupt();
   setLowerBounds();
-  const std::optional<Decomposition> tree = split();
+  std::optional<Decomposition> tree;
+  if (request_.split.space) {
+    if (!splitSpace()) return interrupt();
+    tree.emplace();
+  } else {
+    tree = split();
+  }
   if (!tree) return interrupt();
   std::optional<Plan> plan = solve(*tree);
   if (!plan) return;
@@ -94,13 +100,29 @@ TimeSplitOptions PlanRun::timeSplitOptions() const {
   TimeSplitOptions options;
   options.ratios = request_.split.time_ratios;
   options.variant = request_.split_options.variant;
-  options.assignment = request_.split_options.assignment;
+  options.assignment = request_.split_options.assignment.value_or(StateAssignment::kGreedy);
   options.seed = report_.seed;
   using Check = SplitOptions::Check;
   const Check check = request_.split_options.check;
   const bool crowded = instance_.robots() > instance_.graph().size() / 4;
   if (check == Check::kAlways || (check == Check::kAuto && crowded)) options.checker = &checker_;
   return options;
+}
+
+SpaceSplitOptions PlanRun::spaceSplitOptions() const {
+  SpaceSplitOptions options = request_.split_options.space;
+  options.rows = request_.split.space->rows;
+  options.columns = request_.split.space->columns;
+  options.assignment = request_.split_options.assignment.value_or(StateAssignment::kMatching);
+  options.check = request_.split_options.check != SplitOptions::Check::kNever;
+  options.seed = report_.seed;
+  return options;
+}
+
+bool PlanRun::splitSpace() {
+  log_.enterStage("split");
+  space_.emplace(instance_, spaceSplitOptions());
+  return space_->plan(deadline_);
 }
 
 std::optional<Decomposition> PlanRun::split() {
@@ -113,10 +135,22 @@ std::optional<Decomposition> PlanRun::split() {
   return Decomposition::leaf(instance_, std::move(everyone));
 }
 
+LadderOutcome PlanRun::climb(const Decomposition& tree) {
+  if (!space_) {
+    return PieceLadder(piece_solver_, log_, timeSplitOptions(), deadline_)
+        .climb(tree, report_.subproblems);
+  }
+  const bool check_seams = request_.split_options.check != SplitOptions::Check::kNever;
+  LadderOutcome outcome =
+      PhaseLadder(*space_, piece_solver_, log_, timeSplitOptions(), check_seams, deadline_)
+          .climb(report_.subproblems);
+  report_.layout = space_->layout();
+  return outcome;
+}
+
 std::optional<Plan> PlanRun::solve(const Decomposition& tree) {
   log_.enterStage("solve");
-  PieceLadder ladder(piece_solver_, log_, timeSplitOptions(), deadline_);
-  PieceLadder::Outcome outcome = ladder.climb(tree, report_.subproblems);
+  LadderOutcome outcome = climb(tree);
   if (outcome.plans.empty()) {
     takeVerdict(outcome.last);
     return std::nullopt;

@@ -3,10 +3,12 @@
 #include <optional>
 
 #include "pipeline/checked_request.h"
+#include "pipeline/piece_ladder.h"
 #include "pipeline/piece_solver.h"
 #include "pipeline/run_log.h"
 #include "split_mapf/core/solvability.h"
 #include "split_mapf/split/decomposition.h"
+#include "split_mapf/split/space_split.h"
 #include "split_mapf/split/time_split.h"
 
 namespace split_mapf {
@@ -31,6 +33,10 @@ class PlanRun {
   void accept(Plan plan);
   void interrupt();
   TimeSplitOptions timeSplitOptions() const;
+  SpaceSplitOptions spaceSplitOptions() const;
+  /// Cuts in space; false when the deadline expired.
+  bool splitSpace();
+  LadderOutcome climb(const Decomposition& tree);
 
   const Instance& instance_;
   CheckedRequest request_;
@@ -39,6 +45,7 @@ class PlanRun {
   RunLog log_;
   SolvabilityChecker checker_;
   PieceSolver piece_solver_;
+  std::optional<SpaceSplit> space_;
   PlanReport report_;
 };
 

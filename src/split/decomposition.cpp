@@ -1,6 +1,7 @@
 #include "split_mapf/split/decomposition.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace split_mapf {
 namespace {
@@ -38,9 +39,10 @@ class Stitcher {
     for (std::uint32_t i = 0; i < leaf.robots.size(); ++i) {
       Path& path = whole_.paths[leaf.robots[i]];
       const Path& piece = plan.paths[i];
-      if (path.empty()) path.push_back(piece.front());
+      const auto whole = [&leaf](Vertex v) { return leaf.map ? (*leaf.map)[v] : v; };
+      if (path.empty()) path.push_back(whole(piece.front()));
       path.resize(begin + 1, path.back());
-      path.insert(path.end(), piece.begin() + 1, piece.end());
+      std::transform(piece.begin() + 1, piece.end(), std::back_inserter(path), whole);
     }
     return begin + makespanOf(plan);
   }
@@ -73,6 +75,21 @@ Decomposition Decomposition::parallel(std::vector<Decomposition> children) {
   Decomposition tree;
   tree.kind = Kind::kParallel;
   tree.children = std::move(children);
+  return tree;
+}
+
+Decomposition embed(Decomposition tree, const std::vector<std::uint32_t>& robots,
+                    const std::shared_ptr<const std::vector<Vertex>>& map, std::uint32_t phase,
+                    std::uint32_t region) {
+  if (tree.kind == Decomposition::Kind::kLeaf) {
+    tree.map = map;
+    tree.phase = phase;
+    tree.region = region;
+    for (std::uint32_t& robot : tree.robots) robot = robots[robot];
+  }
+  for (Decomposition& child : tree.children) {
+    child = embed(std::move(child), robots, map, phase, region);
+  }
   return tree;
 }
 

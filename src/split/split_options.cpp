@@ -7,15 +7,70 @@
 
 namespace split_mapf {
 
+namespace {
+
+/// Reads WxD. @throws OptionError.
+BufferSize readBuffer(const std::string& text) {
+  constexpr unsigned long kMost = 1000;
+  BufferSize size;
+  const std::size_t cross = text.find('x');
+  const std::string across = text.substr(0, cross);
+  const std::string along = cross == std::string::npos ? "" : text.substr(cross + 1);
+  const auto is_count = [](const std::string& digits) {
+    return !digits.empty() && digits.size() <= 4 &&
+           digits.find_first_not_of("0123456789") == std::string::npos;
+  };
+  if (is_count(across) && is_count(along)) {
+    size.across = static_cast<std::uint32_t>(std::stoul(across));
+    size.along = static_cast<std::uint32_t>(std::stoul(along));
+    if (size.across >= 2 && size.across <= kMost && size.along >= 1 && size.along <= kMost) {
+      return size;
+    }
+  }
+  throw OptionError("split option buffer=" + text +
+                    ": expected WxD, e.g. 4x2, with W from 2 to 1000 cells across the border and "
+                    "D from 1 to 1000 along it");
+}
+
+void readSpaceOptions(const std::map<std::string, std::string>& values, SpaceSplitOptions& space) {
+  const OptionValues reader(values);
+  const std::string partition =
+      reader.choice("partition", "auto", {"auto", "rectangles", "dynamic"});
+  if (partition == "rectangles") space.partition = PartitionKind::kRectangles;
+  if (partition == "dynamic") space.partition = PartitionKind::kDynamic;
+  if (values.count("buffer") > 0) space.buffer = readBuffer(values.at("buffer"));
+  space.lambda1 = reader.number("lambda1", space.lambda1, 0, 1e6);
+  space.lambda2 = reader.number("lambda2", space.lambda2, 0, 1e6);
+  space.phase_steps = static_cast<std::uint32_t>(
+      std::min<std::uint64_t>(reader.count("phase_steps", space.phase_steps), 1000000));
+}
+
+}  // namespace
+
 const std::vector<SplitOptionInfo>& splitOptions() {
   static const std::vector<SplitOptionInfo> options = {
-      {"assignment", "greedy",
+      {"assignment", "greedy for time splits, matching for space splits",
        "how intermediate states are given to robots: greedy (one after another, longest way first) "
        "or matching (all at once, at the least cost)"},
+      {"buffer", "4x2",
+       "blocks of the buffer zones of a space split: WxD cells, W across the border, D along it; "
+       "on a dynamic partition at least so much",
+       true},
       {"check", "auto",
        "whether intermediate states are checked for solvability: always, never, or auto (where "
        "robots fill more than a quarter of the free cells)"},
       {"compaction", "true", "remove waiting that the seams brought in: true or false"},
+      {"lambda1", "3", "space split: weight of a step beyond T1 before or T2 behind a phase's end",
+       true},
+      {"lambda2", "4", "space split: weight of the local density rho", true},
+      {"partition", "auto",
+       "regions of a space split: rectangles (the paper's), dynamic (for any map), or auto "
+       "(rectangles on maps that are nearly open)",
+       true},
+      {"phase_steps", "0",
+       "space split: T1, the steps that a phase should take; 0: the time left over the phases "
+       "left. T2 is what remains",
+       true},
       {"replan", "3",
        "passes of planning robots anew, one at a time, across the seams after compaction; 0: none"},
       {"variant", "the objective's own",
@@ -45,9 +100,12 @@ SplitOptions readSplitOptions(const std::map<std::string, std::string>& values,
       reader.choice("variant", toString(objective), {"makespan", "sum_of_costs", "bisection"});
   if (variant == "sum_of_costs") options.variant = TimeSplitVariant::kSumOfCosts;
   if (variant == "bisection") options.variant = TimeSplitVariant::kBisection;
-  if (reader.choice("assignment", "greedy", {"greedy", "matching"}) == "matching") {
-    options.assignment = StateAssignment::kMatching;
+  if (values.count("assignment") > 0) {
+    options.assignment = reader.choice("assignment", "greedy", {"greedy", "matching"}) == "greedy"
+                             ? StateAssignment::kGreedy
+                             : StateAssignment::kMatching;
   }
+  readSpaceOptions(values, options.space);
   const std::string check = reader.choice("check", "auto", {"auto", "always", "never"});
   if (check == "always") options.check = SplitOptions::Check::kAlways;
   if (check == "never") options.check = SplitOptions::Check::kNever;

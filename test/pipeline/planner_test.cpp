@@ -85,7 +85,12 @@ TEST(Planner, RefusesWhatItCannotDoBeforeAnyWork) {
   request = requestFor("ecbs", "4x");
   EXPECT_THROW(planner.requireValid(request), SplitSpecError);
   request = requestFor("ecbs", "4s");
-  EXPECT_THROW(planner.requireValid(request), SplitSpecError);
+  EXPECT_NO_THROW(planner.requireValid(request));
+  request.split_options = {"buffer=4"};
+  EXPECT_THROW(planner.requireValid(request), OptionError);
+  request = requestFor("ecbs", "4t");
+  request.split_options = {"buffer=4x2"};
+  EXPECT_THROW(planner.requireValid(request), OptionError) << "no space part";
   request = requestFor("ecbs", "none");
   request.suboptimality = 0.5;
   EXPECT_THROW(planner.requireValid(request), OptionError);

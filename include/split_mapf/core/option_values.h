@@ -16,6 +16,8 @@ class OptionValues {
   std::string choice(const std::string& name, const std::string& fallback,
                      const std::vector<std::string>& choices) const;
   std::uint64_t count(const std::string& name, std::uint64_t fallback) const;
+  /// A finite number from `least` to `most`.
+  double number(const std::string& name, double fallback, double least, double most) const;
   bool flag(const std::string& name, bool fallback) const;
 
  private:

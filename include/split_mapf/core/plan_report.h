@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "split_mapf/core/layout.h"
 #include "split_mapf/core/objective.h"
 #include "split_mapf/core/plan.h"
 #include "split_mapf/core/termination.h"
@@ -57,6 +58,7 @@ struct PlanReport {
   std::vector<TraceRow> trace;
   std::vector<std::pair<std::string, double>> stages;  ///< seconds a stage, in order
   std::vector<SubproblemReport> subproblems;
+  std::optional<Layout> layout;  ///< of a space split
 };
 
 }  // namespace split_mapf

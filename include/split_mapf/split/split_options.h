@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "split_mapf/core/objective.h"
+#include "split_mapf/split/space_split.h"
 #include "split_mapf/split/time_split.h"
 
 namespace split_mapf {
@@ -15,6 +17,7 @@ struct SplitOptionInfo {
   std::string name;
   std::string default_value;
   std::string description;
+  bool space_only = false;  ///< has a meaning for space splits only
 };
 
 /// Every split option there is, in order of names.
@@ -26,10 +29,13 @@ struct SplitOptions {
   enum class Check { kAuto, kAlways, kNever };
 
   TimeSplitVariant variant = TimeSplitVariant::kMakespan;
-  StateAssignment assignment = StateAssignment::kGreedy;
+  /// Nothing: greedy for time splits, matching for space splits.
+  std::optional<StateAssignment> assignment;
   Check check = Check::kAuto;
   bool compaction = true;
   std::uint32_t replan_passes = 3;
+  /// Of space splits: partition, buffer, lambda1, lambda2, phase_steps; the rest is left alone.
+  SpaceSplitOptions space;
 };
 
 /// Reads split options. @throws OptionError for an unknown name or value.
