@@ -46,8 +46,9 @@ void checkNumbers(const PlanRequest& request) {
     throw OptionError("time limit " + std::to_string(request.time_limit_sec) +
                       " is out of range: seconds, 0 or more, are expected");
   }
-  if (request.refine_sec != 0) {
-    throw OptionError("refinement is not available yet: only 0 seconds of it are possible");
+  if (!std::isfinite(request.refine_sec) || request.refine_sec < 0) {
+    throw OptionError("refinement of " + std::to_string(request.refine_sec) +
+                      " s is out of range: seconds, 0 or more, are expected");
   }
 }
 

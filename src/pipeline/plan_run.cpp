@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "pipeline/phase_ladder.h"
+#include "pipeline/refine.h"
 #include "pipeline/replan_singly.h"
 #include "split_mapf/core/compaction.h"
 #include "split_mapf/core/validate.h"
@@ -65,6 +66,17 @@ void PlanRun::runStages() {
   if (!plan) return;
   log_.enterStage("validate");
   accept(std::move(*plan));
+  if (request_.asked.refine_sec > 0) refineWithin(request_.asked.refine_sec);
+}
+
+void PlanRun::refineWithin(double seconds) {
+  log_.enterStage("refine");
+  RefineOptions options;
+  options.objective = report_.objective;
+  options.seed = report_.seed;
+  options.threads = report_.threads;
+  refine(instance_, *report_.plan, options, executor_, deadline_.within(seconds),
+         [this](const Plan& better) { accept(better); });
 }
 
 bool PlanRun::computeDistances() {
@@ -196,9 +208,10 @@ void PlanRun::accept(Plan plan) {
   } else if (report_.certified_by.empty()) {
     report_.certified_by = "shortest_paths";
   }
-  report_.first_plan_sec = log_.elapsedSec();
+  const double now_sec = log_.elapsedSec();
+  if (!report_.plan) report_.first_plan_sec = now_sec;
   report_.trace.push_back(
-      {report_.first_plan_sec, report_.makespan, report_.sum_of_costs, report_.proved_lower_bound});
+      {now_sec, report_.makespan, report_.sum_of_costs, report_.proved_lower_bound});
   report_.message = "solved by " + request_.solver;
   if (report_.subproblems.size() > 1) {
     report_.message += " in " + std::to_string(report_.subproblems.size()) + " pieces";

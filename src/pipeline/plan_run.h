@@ -31,6 +31,7 @@ class PlanRun {
   std::optional<Plan> solve(const Decomposition& tree);
   void takeVerdict(const SolveResult& result);
   void accept(Plan plan);
+  void refineWithin(double seconds);
   void interrupt();
   TimeSplitOptions timeSplitOptions() const;
   SpaceSplitOptions spaceSplitOptions() const;

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/search/safe_interval_search.h"
+#include "solver/search/eviction_search.h"
 
 namespace split_mapf {
 namespace {
@@ -31,26 +31,26 @@ Plan replanSingly(const Instance& instance, Plan plan, std::uint32_t passes,
   trimToArrival(plan);
   PathTable table(instance.graph().size());
   for (std::uint32_t i = 0; i < instance.robots(); ++i) table.insert(i, plan.paths[i]);
-  SafeIntervalSearch search(instance.graph());
+  EvictionSearch search(instance.graph());
   bool gained = true;
   for (std::uint32_t pass = 0; pass < passes && gained; ++pass) {
     gained = false;
     for (const std::uint32_t robot : mostDelayedFirst(instance, plan)) {
-      if (delayOf(instance, plan, robot) == 0) break;
+      Path& path = plan.paths[robot];
+      if (path.size() - 1 == instance.shortestLength(robot)) break;
       if (deadline.expired()) return plan;
-      SearchQuery query;
-      query.robot = robot;
+      EvictionQuery query;
       query.start = instance.start(robot);
       query.distances = &instance.distances(robot);
-      query.others = &table;
-      query.mode = OthersAre::kObstacles;
-      query.latest_arrival = costOf(plan.paths[robot]) - 1;
-      SearchAnswer answer = search.search(query, deadline);
-      if (answer.path.empty()) continue;
-      table.remove(robot, plan.paths[robot]);
-      plan.paths[robot] = std::move(answer.path);
-      table.insert(robot, plan.paths[robot]);
-      gained = true;
+      query.placed = &table;
+      query.latest_arrival = static_cast<std::uint32_t>(path.size() - 2);
+      table.remove(robot, path);
+      EvictionAnswer answer = search.search(query, deadline);
+      if (!answer.path.empty()) {
+        path = std::move(answer.path);
+        gained = true;
+      }
+      table.insert(robot, path);
     }
   }
   return plan;

@@ -39,9 +39,12 @@ void RunLog::leaveStage() {
 }
 
 void RunLog::expectPieces(std::uint32_t count) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  progress_.subproblems_done = 0;
-  progress_.subproblems_total = count;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    progress_.subproblems_done = 0;
+    progress_.subproblems_total = count;
+  }
+  tell();
 }
 
 void RunLog::pieceDone() {
@@ -58,9 +61,12 @@ void RunLog::setLowerBound(double lower_bound) {
 }
 
 void RunLog::setPlan(std::uint32_t makespan, std::uint64_t sum_of_costs) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  progress_.makespan = makespan;
-  progress_.sum_of_costs = sum_of_costs;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    progress_.makespan = makespan;
+    progress_.sum_of_costs = sum_of_costs;
+  }
+  tell();
 }
 
 double RunLog::elapsedSec() const { return secondsSince(begin_); }

@@ -95,7 +95,7 @@ TEST(Planner, RefusesWhatItCannotDoBeforeAnyWork) {
   request.suboptimality = 0.5;
   EXPECT_THROW(planner.requireValid(request), OptionError);
   request = requestFor("ecbs", "none");
-  request.refine_sec = 1;
+  request.refine_sec = -1;
   EXPECT_THROW(planner.requireValid(request), OptionError);
   request = requestFor("ecbs", "2t");
   request.split_options = {"variant=bisection"};
@@ -107,6 +107,31 @@ TEST(Planner, RefusesWhatItCannotDoBeforeAnyWork) {
   EXPECT_THROW(planner.requireValid(request), OptionError);
   request.split_options = {"variant=makespan", "variant=makespan"};
   EXPECT_THROW(planner.requireValid(request), OptionError);
+}
+
+TEST(Planner, RefinesWithinItsShareOfTheTime) {
+  Executor executor(2);
+  const Instance instance = crossing();
+  PlanRequest request = requestFor("conflict_optimizer", "none");
+  request.objective = Objective::kSumOfCosts;
+  request.solver_options = {"slack=20"};
+  request.refine_sec = 0.3;
+  std::vector<std::uint64_t> sums;
+  const PlanReport report = Planner(builtinSolvers(), executor)
+                                .plan(instance, request, Deadline(20), [&](const PlanProgress& p) {
+                                  if (p.sum_of_costs > 0) sums.push_back(p.sum_of_costs);
+                                });
+  ASSERT_TRUE(report.plan);
+  EXPECT_TRUE(validate(instance, *report.plan).empty());
+  EXPECT_EQ(report.sum_of_costs, sumOfCostsOf(*report.plan));
+  EXPECT_LT(report.runtime_sec, 10) << "only its share, not the whole limit";
+  EXPECT_EQ(report.stages.back().first, "refine");
+  for (std::size_t i = 1; i < report.trace.size(); ++i) {
+    EXPECT_LT(report.trace[i].sum_of_costs, report.trace[i - 1].sum_of_costs);
+  }
+  EXPECT_EQ(report.trace.back().sum_of_costs, report.sum_of_costs);
+  ASSERT_FALSE(sums.empty()) << "the progress tells of the plan";
+  EXPECT_EQ(sums.back(), report.sum_of_costs);
 }
 
 TEST(Planner, NamesTheRobotThatIsCutOff) {

@@ -30,18 +30,19 @@ struct PlanRequest {
 
 /// How far a call has come.
 struct PlanProgress {
-  std::string stage;  ///< "distances", "split", "solve", "stitch", "validate"
+  std::string stage;  ///< "check", "distances", "split", "solve", ..., "validate", "refine"
   std::uint32_t subproblems_done = 0;
   std::uint32_t subproblems_total = 0;
   std::uint32_t makespan = 0;      ///< of the best plan so far; 0: none yet
   std::uint64_t sum_of_costs = 0;  ///< likewise
   double proved_lower_bound = 0;   ///< of the objective [steps]
 };
-/// Called at each change of stage and after each piece, from any worker thread, one call at a time.
+/// Called at each change of stage, after each piece and with each better plan, from any worker
+/// thread, one call at a time.
 using ProgressCallback = std::function<void(const PlanProgress&)>;
 
-/// Runs the whole way: distances, split, solve in parallel, stitch, validate. The only place where
-/// the stages meet. Thread-safe: several calls may share one executor.
+/// Runs the whole way: distances, split, solve in parallel, stitch, validate, refine. The only
+/// place where the stages meet. Thread-safe: several calls may share one executor.
 class Planner {
  public:
   /// @pre both outlive the planner.

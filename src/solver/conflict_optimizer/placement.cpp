@@ -24,6 +24,20 @@ Placement::Placement(const Instance& instance, const std::vector<std::uint32_t>&
   for (const std::uint32_t robot : queue) requeue(robot);
 }
 
+Placement::Placement(const Instance& instance, const Plan& plan, std::uint32_t horizon,
+                     std::uint64_t seed)
+    : Placement(instance, {}, seed) {
+  for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {
+    const Path& path = plan.paths[robot];
+    if (path.size() - 1 > horizon) {
+      requeue(robot);
+    } else {
+      plan_.paths[robot] = path;
+      table_.insert(robot, path);
+    }
+  }
+}
+
 void Placement::requeue(std::uint32_t robot) {
   queue_.push_back(robot);
   queued_[robot] = std::min(queued_[robot] + 1, kMostQueued);

@@ -21,6 +21,10 @@ class Placement {
   /// @param queue  everybody, in the order of the first placing. The instance outlives this object.
   Placement(const Instance& instance, const std::vector<std::uint32_t>& queue, std::uint64_t seed);
 
+  /// Starts from a plan: everybody who arrives by `horizon` is placed, the others wait.
+  /// @pre the plan is valid and its paths end at their arrivals.
+  Placement(const Instance& instance, const Plan& plan, std::uint32_t horizon, std::uint64_t seed);
+
   struct Effort {
     std::uint64_t placements = 0;       ///< in this run
     std::uint64_t expansion_limit = 0;  ///< in all runs; 0: none

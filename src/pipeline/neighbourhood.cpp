@@ -1,0 +1,167 @@
+#include "pipeline/neighbourhood.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace split_mapf {
+namespace {
+
+constexpr double kFirstWeight = 1.0;
+constexpr double kForgetting = 0.02;
+// No way and no size falls below this share of the average weight, so that each is tried at times.
+constexpr double kLeastShare = 0.2;
+
+template <std::size_t N>
+std::size_t drawByWeight(const std::array<double, N>& weights, RandomEngine& engine) {
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  const double floor = kLeastShare * sum / N;
+  constexpr std::uint64_t kSteps = 1U << 20U;
+  double left = static_cast<double>(drawBelow(engine, kSteps)) / kSteps * (sum + N * floor);
+  for (std::size_t i = 0; i + 1 < N; ++i) {
+    left -= weights[i] + floor;
+    if (left < 0) return i;
+  }
+  return N - 1;
+}
+
+}  // namespace
+
+NeighbourhoodPicker::NeighbourhoodPicker(const Instance& instance, std::uint64_t seed)
+    : instance_(instance), engine_(seed), marks_(instance.robots(), 0) {
+  way_weights_.fill(kFirstWeight);
+  size_weights_.fill(kFirstWeight);
+}
+
+void NeighbourhoodPicker::reward(std::uint64_t gain, std::uint64_t expansions) {
+  const double rate =
+      1000.0 * static_cast<double>(gain) / (200.0 + static_cast<double>(expansions));
+  const auto learn = [rate](double& weight) {
+    weight += kForgetting * (rate - weight);
+    weight = std::max(weight, 1e-9);
+  };
+  learn(way_weights_[way_]);
+  learn(size_weights_[size_]);
+}
+
+void NeighbourhoodPicker::add(std::uint32_t robot, std::vector<std::uint32_t>& robots) {
+  if (marks_[robot] == pick_number_) return;
+  marks_[robot] = pick_number_;
+  robots.push_back(robot);
+}
+
+std::uint32_t NeighbourhoodPicker::drawDelayed(const Plan& plan) {
+  const auto n = instance_.robots();
+  const auto first = static_cast<std::uint32_t>(drawBelow(engine_, n));
+  constexpr int kCandidates = 3;
+  std::uint32_t best = first;
+  std::uint64_t most = 0;
+  int found = 0;
+  for (std::uint32_t i = 0; i < n && found < kCandidates; ++i) {
+    const std::uint32_t robot = (first + i) % n;
+    const std::uint64_t delay = plan.paths[robot].size() - 1 - instance_.shortestLength(robot);
+    if (delay == 0) continue;
+    ++found;
+    // Great delays are likelier, not certain.
+    const std::uint64_t score = drawBelow(engine_, delay + 1);
+    if (score >= most) {
+      most = score;
+      best = robot;
+    }
+  }
+  return best;
+}
+
+void NeighbourhoodPicker::addOccupants(const PathTable& table, Vertex v, std::uint32_t from,
+                                       std::uint32_t to, std::size_t size,
+                                       std::vector<std::uint32_t>& robots) {
+  for (const Stay& stay : table.at(v)) {
+    if (stay.begin > to || robots.size() >= size) return;
+    if (stay.end > from) add(stay.robot, robots);
+  }
+}
+
+void NeighbourhoodPicker::walkInTheWay(const Plan& plan, const PathTable& table,
+                                       std::uint32_t robot, std::size_t size,
+                                       std::vector<std::uint32_t>& robots) {
+  const Path& path = plan.paths[robot];
+  const DistanceTable& distances = instance_.distances(robot);
+  const auto cost = static_cast<std::uint32_t>(path.size() - 1);
+  constexpr int kWalks = 10;
+  for (int walk = 0; walk < kWalks && robots.size() < size; ++walk) {
+    auto t = static_cast<std::uint32_t>(drawBelow(engine_, path.size()));
+    Vertex at = path[t];
+    while (robots.size() < size) {
+      // Any step from which the robot could still arrive earlier than it does.
+      Vertex next = kNoVertex;
+      std::uint64_t choices = 0;
+      const auto consider = [&](Vertex v) {
+        if (t + 1 + distances(v) < cost && drawBelow(engine_, ++choices) == 0) next = v;
+      };
+      for (const Vertex v : instance_.graph().neighbours(at)) consider(v);
+      consider(at);
+      if (next == kNoVertex) break;
+      addOccupants(table, next, t, t + 1, size, robots);
+      at = next;
+      ++t;
+    }
+  }
+}
+
+void NeighbourhoodPicker::takeAroundArrival(const Plan& plan, const PathTable& table,
+                                            std::uint32_t robot, std::size_t size,
+                                            std::vector<std::uint32_t>& robots) {
+  const Path& path = plan.paths[robot];
+  const auto cost = static_cast<std::uint32_t>(path.size() - 1);
+  // Who passes its goal when it could be there.
+  addOccupants(table, path.back(), instance_.shortestLength(robot), cost, size, robots);
+  // Who stands on a shortest way to it.
+  const DistanceTable& distances = instance_.distances(robot);
+  Vertex at = instance_.start(robot);
+  for (std::uint32_t t = 1; distances(at) > 0 && robots.size() < size; ++t) {
+    Vertex next = kNoVertex;
+    std::uint64_t choices = 0;
+    for (const Vertex v : instance_.graph().neighbours(at)) {
+      if (distances(v) < distances(at) && drawBelow(engine_, ++choices) == 0) next = v;
+    }
+    at = next;
+    addOccupants(table, at, t > 0 ? t - 1 : 0, t + 1, size, robots);
+  }
+}
+
+void NeighbourhoodPicker::takeCrowd(const Plan& plan, const PathTable& table, std::uint32_t robot,
+                                    std::size_t size, std::vector<std::uint32_t>& robots) {
+  const Path& path = plan.paths[robot];
+  const auto t = static_cast<std::uint32_t>(drawBelow(engine_, path.size()));
+  std::vector<Vertex> queue = {path[t]};
+  constexpr std::size_t kMostCells = 60;
+  constexpr std::uint32_t kSpan = 3;
+  for (std::size_t i = 0; i < queue.size() && robots.size() < size; ++i) {
+    addOccupants(table, queue[i], t > kSpan ? t - kSpan : 0, t + kSpan, size, robots);
+    for (const Vertex v : instance_.graph().neighbours(queue[i])) {
+      if (queue.size() >= kMostCells) break;
+      if (std::find(queue.begin(), queue.end(), v) == queue.end()) queue.push_back(v);
+    }
+  }
+}
+
+void NeighbourhoodPicker::pick(const Plan& plan, const PathTable& table,
+                               std::vector<std::uint32_t>& robots) {
+  robots.clear();
+  ++pick_number_;
+  way_ = drawByWeight(way_weights_, engine_);
+  size_ = drawByWeight(size_weights_, engine_);
+  const std::size_t size = std::min<std::size_t>(kSizes[size_], instance_.robots());
+  const std::uint32_t robot = drawDelayed(plan);
+  add(robot, robots);
+  if (way_ == kInTheWay) walkInTheWay(plan, table, robot, size, robots);
+  if (way_ == kAroundArrival) takeAroundArrival(plan, table, robot, size, robots);
+  if (way_ == kCrowd) takeCrowd(plan, table, robot, size, robots);
+  if (way_ == kRandom) {
+    while (robots.size() < size) {
+      add(static_cast<std::uint32_t>(drawBelow(engine_, instance_.robots())), robots);
+    }
+  }
+  shuffle(robots, engine_);
+}
+
+}  // namespace split_mapf

@@ -1,0 +1,154 @@
+#include "pipeline/refine.h"
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "pipeline/incumbent.h"
+#include "pipeline/refine_worker.h"
+#include "solver/conflict_optimizer/placement.h"
+
+namespace split_mapf {
+namespace {
+
+// Between rounds the plan is shown, and other callers of the executor get their turn.
+constexpr double kRoundSec = 0.2;
+// Of the placements of a descent, which is doubled each time that one fails.
+constexpr std::uint64_t kFirstPlacementsARobot = 10;
+constexpr std::uint32_t kDelayedOneIn = 4;
+
+/// One call of refine().
+class Refinement {
+ public:
+  Refinement(const Instance& instance, Plan plan, const RefineOptions& options, Executor& executor,
+             const Deadline& deadline, const std::function<void(const Plan&)>& improved)
+      : instance_(instance),
+        options_(options),
+        executor_(executor),
+        deadline_(deadline),
+        improved_(improved),
+        plan_(std::move(plan)),
+        cost_(sumOfCostsOf(plan_)) {}
+
+  Plan run() {
+    const std::uint64_t least = sumOfCostsLowerBound(instance_);
+    while (!deadline_.expired()) {
+      const bool may_descend = mayDescend();
+      if (may_descend && descents_sec_ <= search_sec_) {
+        timed(descents_sec_, [this] { descend(); });
+      } else if (cost_ > least) {
+        timed(search_sec_, [this] { searchNeighbourhoods(); });
+      } else if (may_descend) {
+        search_sec_ = descents_sec_;  // nothing else is left to do
+      } else {
+        break;
+      }
+    }
+    return std::move(plan_);
+  }
+
+ private:
+  bool mayDescend() const {
+    return options_.objective == Objective::kMakespan &&
+           makespanOf(plan_) > makespanLowerBound(instance_);
+  }
+
+  template <typename Work>
+  static void timed(double& seconds, Work work) {
+    const auto begin = Deadline::Clock::now();
+    work();
+    seconds += std::chrono::duration<double>(Deadline::Clock::now() - begin).count();
+  }
+
+  void take(Plan plan) {
+    plan_ = std::move(plan);
+    cost_ = sumOfCostsOf(plan_);
+    improved_(plan_);
+  }
+
+  /// Each worker tries to make everybody arrive a step earlier; the first to succeed stops the
+  /// others.
+  void descend() {
+    const auto stop = std::make_shared<StopFlag>(deadline_.stopFlag());
+    const Deadline deadline = deadline_.withStop(stop);
+    const std::uint32_t horizon = makespanOf(plan_) - 1;
+    std::mutex mutex;
+    std::optional<Plan> found;
+    std::vector<Executor::Job> jobs(options_.threads);
+    for (Executor::Job& job : jobs) {
+      job.run = [&, seed = ++descents_ + options_.seed] {
+        Placement placement(instance_, plan_, horizon, seed);
+        Placement::Effort effort;
+        effort.placements = placements_a_robot_ * instance_.robots();
+        effort.delayed_one_in = kDelayedOneIn;
+        if (placement.run(horizon, effort, deadline) != Placement::Outcome::kDone) return;
+        const std::lock_guard<std::mutex> lock(mutex);
+        if (!found) found = placement.plan();
+        stop->request();
+      };
+    }
+    executor_.run(std::move(jobs), options_.threads, deadline_);
+    if (!found) {
+      placements_a_robot_ *= 2;
+      return;
+    }
+    workers_.clear();
+    take(std::move(*found));
+  }
+
+  void searchNeighbourhoods() {
+    if (workers_.empty()) employWorkers();
+    const Deadline round = deadline_.within(kRoundSec);
+    std::vector<Executor::Job> jobs;
+    for (const auto& worker : workers_) {
+      jobs.push_back({0, [&worker = *worker, &round] { worker.run(round); }});
+    }
+    executor_.run(std::move(jobs), options_.threads, deadline_);
+    std::uint64_t seen = incumbent_->version();
+    for (const auto& worker : workers_) seen = std::min(seen, worker->version());
+    incumbent_->forgetBefore(seen);
+    Plan now = incumbent_->plan();
+    if (sumOfCostsOf(now) < cost_) {
+      take(std::move(now));
+    } else {
+      plan_ = std::move(now);
+    }
+  }
+
+  void employWorkers() {
+    const std::uint32_t latest =
+        options_.objective == Objective::kMakespan ? makespanOf(plan_) : kForever - 1;
+    incumbent_ = std::make_unique<Incumbent>(plan_);
+    for (std::uint32_t i = 0; i < options_.threads; ++i) {
+      const std::uint64_t seed = options_.seed * options_.threads + i;
+      workers_.push_back(std::make_unique<RefineWorker>(instance_, *incumbent_, latest, seed));
+    }
+  }
+
+  const Instance& instance_;
+  const RefineOptions options_;
+  Executor& executor_;
+  const Deadline& deadline_;
+  const std::function<void(const Plan&)>& improved_;
+  Plan plan_;
+  std::uint64_t cost_;  // its sum of costs
+  std::unique_ptr<Incumbent> incumbent_;
+  std::vector<std::unique_ptr<RefineWorker>> workers_;
+  std::uint64_t descents_ = 0;
+  std::uint64_t placements_a_robot_ = kFirstPlacementsARobot;
+  double descents_sec_ = 0;
+  double search_sec_ = 0;
+};
+
+}  // namespace
+
+Plan refine(const Instance& instance, Plan plan, const RefineOptions& options, Executor& executor,
+            const Deadline& deadline, const std::function<void(const Plan&)>& improved) {
+  trimToArrival(plan);
+  return Refinement(instance, std::move(plan), options, executor, deadline, improved).run();
+}
+
+}  // namespace split_mapf

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "split_mapf/core/deadline.h"
+#include "split_mapf/core/instance.h"
+#include "split_mapf/core/objective.h"
+#include "split_mapf/core/plan.h"
+#include "split_mapf/pipeline/executor.h"
+
+namespace split_mapf {
+
+/// How a refinement works.
+struct RefineOptions {
+  Objective objective = Objective::kMakespan;
+  std::uint64_t seed = 0;
+  std::uint32_t threads = 1;
+};
+
+/// Improves a valid plan until the deadline, or until its cost is the lower bound: for makespan by
+/// conflict optimisation one step below the plan's makespan, then, for either objective, by
+/// large-neighbourhood search on whole paths for sum of costs. No cost ever grows. Calls
+/// `improved` from the calling thread with every better plan, a few times a second at most.
+/// Returns the best plan. The clock cuts it, so two runs may differ.
+/// Source: Li et al., IJCAI 2021; optimistic commits after Chan et al. 2024 (arXiv 2402.01961).
+Plan refine(const Instance& instance, Plan plan, const RefineOptions& options, Executor& executor,
+            const Deadline& deadline, const std::function<void(const Plan&)>& improved);
+
+}  // namespace split_mapf
