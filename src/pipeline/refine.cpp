@@ -16,8 +16,8 @@ namespace {
 
 // Between rounds the plan is shown, and other callers of the executor get their turn.
 constexpr double kRoundSec = 0.2;
-// Of the placements of a descent, which is doubled each time that one fails.
-constexpr std::uint64_t kFirstPlacementsARobot = 10;
+// Placements a robot without progress before a descent is given up; doubled each time.
+constexpr std::uint64_t kFirstPatience = 5;
 constexpr std::uint32_t kDelayedOneIn = 4;
 
 /// One call of refine().
@@ -82,7 +82,7 @@ class Refinement {
       job.run = [&, seed = ++descents_ + options_.seed] {
         Placement placement(instance_, plan_, horizon, seed);
         Placement::Effort effort;
-        effort.placements = placements_a_robot_ * instance_.robots();
+        effort.patience = patience_ * instance_.robots();
         effort.delayed_one_in = kDelayedOneIn;
         if (placement.run(horizon, effort, deadline) != Placement::Outcome::kDone) return;
         const std::lock_guard<std::mutex> lock(mutex);
@@ -92,7 +92,7 @@ class Refinement {
     }
     executor_.run(std::move(jobs), options_.threads, deadline_);
     if (!found) {
-      placements_a_robot_ *= 2;
+      patience_ *= 2;
       return;
     }
     workers_.clear();
@@ -138,7 +138,7 @@ class Refinement {
   std::unique_ptr<Incumbent> incumbent_;
   std::vector<std::unique_ptr<RefineWorker>> workers_;
   std::uint64_t descents_ = 0;
-  std::uint64_t placements_a_robot_ = kFirstPlacementsARobot;
+  std::uint64_t patience_ = kFirstPatience;
   double descents_sec_ = 0;
   double search_sec_ = 0;
 };

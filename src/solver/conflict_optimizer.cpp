@@ -13,6 +13,8 @@
 namespace split_mapf {
 namespace {
 
+// Fewer robots get as many placements as these.
+constexpr std::uint32_t kFewRobots = 100;
 // Placings that depart late, once a horizon has failed.
 constexpr std::uint32_t kDelayedOneIn = 4;
 
@@ -34,7 +36,7 @@ ConflictOptimizerSolver::ConflictOptimizerSolver(const SolverOptions& options)
       seed_(options.seed),
       expansion_limit_(options.expansion_limit) {
   const OptionValues values(options.values);
-  settings_.placements = values.count("placements", settings_.placements);
+  settings_.patience = values.count("patience", settings_.patience);
   settings_.slack = values.count("slack", settings_.slack);
 }
 
@@ -43,8 +45,8 @@ SolverInfo ConflictOptimizerSolver::info() {
   return {"conflict_optimizer",
           "places robots within a fixed horizon, displacing the cheapest: optimal makespan on most "
           "maps",
-          {{"placements", std::to_string(defaults.placements),
-            "placements a robot, on average, before a horizon is given up for a longer one"},
+          {{"patience", std::to_string(defaults.patience),
+            "placements a robot without progress before a horizon is given up for a longer one"},
            {"slack", std::to_string(defaults.slack),
             "sum of costs: steps that the first horizon exceeds the greatest shortest path by"}},
           [](const SolverOptions& options) {
@@ -60,7 +62,8 @@ SolveResult ConflictOptimizerSolver::solve(const Instance& instance,
   Placement placement(instance, shortestFirst(instance, seed_), seed_);
   const std::uint32_t bound = makespanLowerBound(instance);
   Placement::Effort effort;
-  effort.placements = std::max<std::uint64_t>(1, settings_.placements) * instance.robots();
+  effort.patience =
+      std::max<std::uint64_t>(1, settings_.patience * std::max(kFewRobots, instance.robots()));
   effort.expansion_limit = expansion_limit_;
   // Longer than this no robot has to travel on any but pathological graphs.
   const std::uint64_t longest = std::uint64_t{4} * (bound + instance.graph().size());

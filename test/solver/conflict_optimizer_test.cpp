@@ -59,11 +59,11 @@ TEST(ConflictOptimizer, SlackLetsRobotsArriveLater) {
   EXPECT_LE(makespanOf(*loose.plan), makespanLowerBound(instance) + 40);
 }
 
-TEST(ConflictOptimizer, FewPlacementsLeadToALongerHorizonSooner) {
+TEST(ConflictOptimizer, LittlePatienceLeadsToALongerHorizonSooner) {
   const Instance instance = crowded();
-  const SolveResult patient = solve(instance, Objective::kMakespan, {{"placements", "30"}});
-  const SolveResult hasty = solve(instance, Objective::kMakespan, {{"placements", "1"}});
-  ASSERT_TRUE(patient.plan && hasty.plan);
+  const SolveResult patient = solve(instance, Objective::kMakespan, {{"patience", "5"}});
+  const SolveResult hasty = solve(instance, Objective::kMakespan, {{"patience", "0"}});
+  ASSERT_TRUE(patient.plan);
   EXPECT_EQ(patient.high_level_nodes, 1U);
   EXPECT_GT(hasty.high_level_nodes, 1U);
 }

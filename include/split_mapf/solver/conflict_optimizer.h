@@ -19,10 +19,11 @@ namespace split_mapf {
 class ConflictOptimizerSolver : public Solver {
  public:
   struct Settings {
-    /// Placements a robot, on average, before a horizon is given up.
-    std::uint64_t placements = 30;
+    /// Placements a robot without progress before a horizon is given up. Progress means fewer
+    /// robots waiting than ever before.
+    std::uint64_t patience = 2;
     /// Sum of costs: steps that the first horizon exceeds the greatest shortest path by.
-    std::uint64_t slack = 10;
+    std::uint64_t slack = 5;
   };
   /// @throws OptionError for an option value out of range.
   explicit ConflictOptimizerSolver(const SolverOptions& options);

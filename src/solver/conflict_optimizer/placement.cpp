@@ -64,7 +64,12 @@ Placement::Outcome Placement::run(std::uint32_t horizon, const Effort& effort,
   query.placed = &table_;
   query.weights = &weights_;
   query.latest_arrival = horizon;
-  for (std::uint64_t left = effort.placements; !queue_.empty(); --left) {
+  std::size_t fewest = queue_.size();
+  for (std::uint64_t left = effort.patience; !queue_.empty(); --left) {
+    if (queue_.size() < fewest) {
+      fewest = queue_.size();
+      left = effort.patience;
+    }
     if (left == 0) return Outcome::kSpent;
     if (effort.expansion_limit > 0 && expansions_ > effort.expansion_limit) {
       return Outcome::kExhausted;

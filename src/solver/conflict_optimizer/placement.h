@@ -26,7 +26,8 @@ class Placement {
   Placement(const Instance& instance, const Plan& plan, std::uint32_t horizon, std::uint64_t seed);
 
   struct Effort {
-    std::uint64_t placements = 0;       ///< in this run
+    /// Placements without fewer robots waiting than ever before in this run.
+    std::uint64_t patience = 0;
     std::uint64_t expansion_limit = 0;  ///< in all runs; 0: none
     /// One placing in so many departs a random while later, as some knots need a robot that lets
     /// the others pass first; 0: none does.

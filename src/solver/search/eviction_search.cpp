@@ -162,8 +162,9 @@ void EvictionSearch::move(const State& state, std::uint32_t index, Vertex to,
   const std::vector<Stay>& stays = query_->placed->at(to);
   const auto visits = static_cast<std::uint32_t>(stays.size());
   const std::uint32_t soonest = state.time + 1;
-  std::uint32_t visit = 0;
-  while (visit < visits && stays[visit].end <= soonest) ++visit;
+  const auto ahead = std::partition_point(
+      stays.begin(), stays.end(), [soonest](const Stay& stay) { return stay.end <= soonest; });
+  auto visit = static_cast<std::uint32_t>(ahead - stays.begin());
   for (;; ++visit) {
     const std::uint32_t gap_begin = visit == 0 ? 0 : stays[visit - 1].end;
     if (gap_begin > leave_by) return;
