@@ -83,13 +83,14 @@ class Painter {
         choose("opacity", options.opacity, std::clamp(0.9 / std::max(1.0, crowd), 0.6, 0.9), 1);
   }
 
-  void paintGrid() {
+  /// @param tints  a colour a free cell; empty: all the same.
+  void paintGrid(const std::vector<Colour>& tints = {}) {
     const bool lines = options_.grid_lines && cell_px_ >= kGridLinesFromPx;
     for (Vertex v = 0; v < grid_.size(); ++v) {
       const Cell cell = grid_.cellOf(v);
       const std::uint32_t x = margin_px_ + static_cast<std::uint32_t>(cell.x) * cell_px_;
       const std::uint32_t y = margin_px_ + static_cast<std::uint32_t>(cell.y) * cell_px_;
-      canvas_.fillRectangle(x, y, cell_px_, cell_px_, kFreeColour);
+      canvas_.fillRectangle(x, y, cell_px_, cell_px_, tints.empty() ? kFreeColour : tints[v]);
       if (!lines) continue;
       if (grid_.isFree({cell.x + 1, cell.y})) {
         canvas_.fillRectangle(x + cell_px_ - 1, y, 1, cell_px_, kGridLineColour);
@@ -123,6 +124,13 @@ class Painter {
     const double radius = std::max(0.28 * cell_px_, 1.4);
     canvas_.fillDisc(centreOf(cell), radius, {darkened(colour, 0.35), 1});
     canvas_.fillDisc(centreOf(cell), radius * 0.78, {colour, 1});
+  }
+
+  // A ringed dot, smaller than a goal.
+  void paintState(std::size_t robot, Cell cell) {
+    const double radius = std::max(0.24 * cell_px_, 1.3);
+    canvas_.fillDisc(centreOf(cell), radius, {kObstacleColour, 1});
+    canvas_.fillDisc(centreOf(cell), radius * 0.7, {robotColour(robot), 1});
   }
 
   Picture take() { return canvas_.take(); }
@@ -160,9 +168,7 @@ void requireInside(const Grid& grid, std::size_t robot, const std::string& what,
                    std::to_string(grid.height()) + " map that is to be drawn");
 }
 
-}  // namespace
-
-Picture drawPlan(const Grid& grid, const CellPaths& paths, const PictureOptions& options) {
+void requireDrawable(const Grid& grid, const CellPaths& paths) {
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (paths[i].empty()) {
       throw InputError("robot " + std::to_string(i) + ": its path is empty, expected its start");
@@ -172,11 +178,69 @@ Picture drawPlan(const Grid& grid, const CellPaths& paths, const PictureOptions&
       requireInside(grid, i, "at step " + std::to_string(t) + " the cell", paths[i][t]);
     }
   }
-  Painter painter(grid, paths.size(), options);
-  painter.paintGrid();
+}
+
+void paintPlan(const CellPaths& paths, Painter& painter) {
   for (std::size_t i = 0; i < paths.size(); ++i) painter.paintPath(i, paths[i]);
   for (std::size_t i = 0; i < paths.size(); ++i) painter.paintStart(i, paths[i].front());
   for (std::size_t i = 0; i < paths.size(); ++i) painter.paintGoal(i, paths[i].back());
+}
+
+// Pale tints that tell regions apart; cells that change owner are stronger.
+std::vector<Colour> regionTints(const Layout& layout, const Ownership& ownership) {
+  constexpr double kGoldenStep = 0.6180339887498949;
+  std::vector<Colour> tints(ownership.size(), kFreeColour);
+  const auto tint = [&](Vertex v, double lightness, double chroma) {
+    if (ownership[v] == kNoRegion) return;
+    const double hue = 0.08 + kGoldenStep * ownership[v];
+    tints[v] = perceptualColour(lightness, chroma, hue - std::floor(hue));
+  };
+  for (Vertex v = 0; v < ownership.size(); ++v) tint(v, 0.95, 0.035);
+  for (const Vertex v : bufferVertices(layout)) tint(v, 0.84, 0.085);
+  return tints;
+}
+
+void requireLayout(const Grid& grid, const CellPaths& paths, const Layout& layout,
+                   std::uint32_t phase) {
+  if (phase >= layout.phases.size()) {
+    throw InputError("the layout has no phase " + std::to_string(phase) + ", it has " +
+                     std::to_string(layout.phases.size()));
+  }
+  for (const Ownership& ownership : layout.ownerships) {
+    if (ownership.size() == grid.size()) continue;
+    throw InputError("the layout is of " + std::to_string(ownership.size()) +
+                     " free cells, the map has " + std::to_string(grid.size()));
+  }
+  if (layout.phases[phase].ownership >= layout.ownerships.size() ||
+      layout.phases[phase].states.size() != paths.size()) {
+    throw InputError("phase " + std::to_string(phase) + " of the layout has " +
+                     std::to_string(layout.phases[phase].states.size()) +
+                     " states, expected one for each of " + std::to_string(paths.size()) +
+                     " robots and an ownership that is there");
+  }
+}
+
+}  // namespace
+
+Picture drawPlan(const Grid& grid, const CellPaths& paths, const Layout& layout,
+                 std::uint32_t phase, const PictureOptions& options) {
+  requireDrawable(grid, paths);
+  requireLayout(grid, paths, layout, phase);
+  const Layout::Phase& shown = layout.phases[phase];
+  Painter painter(grid, paths.size(), options);
+  painter.paintGrid(regionTints(layout, layout.ownerships[shown.ownership]));
+  paintPlan(paths, painter);
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    painter.paintState(i, grid.cellOf(shown.states[i]));
+  }
+  return painter.take();
+}
+
+Picture drawPlan(const Grid& grid, const CellPaths& paths, const PictureOptions& options) {
+  requireDrawable(grid, paths);
+  Painter painter(grid, paths.size(), options);
+  painter.paintGrid();
+  paintPlan(paths, painter);
   return painter.take();
 }
 

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "io/file_bytes.h"
+#include "io/layout_json.h"
 #include "split_mapf/io/plan_json.h"
 
 namespace split_mapf {
@@ -127,7 +128,8 @@ void writePlanJson(std::ostream& out, const Grid& grid, const PlanReport& report
   writeCosts(out, report);
   writeProgress(out, report);
   writeSubproblems(out, report);
-  writeField(out, "layout", nullptr);
+  out << "  \"layout\": " << (report.layout ? layoutJson(grid, *report.layout, "  ") : "null")
+      << ",\n";
   std::vector<std::string> rows;
   if (report.plan) {
     for (const Path& path : report.plan->paths) rows.push_back(pathRow(grid, path));

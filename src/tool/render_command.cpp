@@ -1,5 +1,6 @@
 #include <cstdint>
 #include <iostream>
+#include <optional>
 
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/instance.h"
@@ -16,6 +17,7 @@ namespace split_mapf::tool {
 namespace {
 
 constexpr std::uint32_t kMostCellPx = 256;
+constexpr std::uint32_t kMostPhases = 1000000;
 
 /// One end of a robot's path: where the plan has it, and where the scenario.
 struct PathEnd {
@@ -38,6 +40,22 @@ void requireMatch(const CellPaths& paths, const Scenario& scenario) {
   }
 }
 
+/// The plan, over the regions of a phase where that was asked for.
+Picture draw(const CommandLine& line, const Grid& grid, const CellPaths& paths,
+             const PictureOptions& options) {
+  if (!line.has("regions")) {
+    if (line.has("phase")) throw OptionError("option --phase needs --regions");
+    return drawPlan(grid, paths, options);
+  }
+  const std::string file = line.text("plan");
+  const std::optional<Layout> layout = readPlanLayout(file, grid);
+  if (!layout) {
+    throw InputError(file + ": its `layout` is null: --regions needs a plan of a space split");
+  }
+  const auto phase = static_cast<std::uint32_t>(line.wholeNumber("phase", 0, 0, kMostPhases));
+  return drawPlan(grid, paths, *layout, phase, options);
+}
+
 }  // namespace
 
 ExitCode runRender(const Call& call) {
@@ -46,6 +64,8 @@ ExitCode runRender(const Call& call) {
   line.require("scen", "FILE", "MovingAI .scen that the plan is for");
   line.require("plan", "FILE", "JSON with `paths`, as `plan --output` writes it");
   line.require("output", "FILE", "write the picture as PNG");
+  line.offerFlag("regions", "show the regions, buffers and intermediate states of a space split");
+  line.offer("phase", "N", "with --regions: the phase to show, from 0 on (0)");
   line.offer("scale", "PIXELS", "pixels a cell, 1 to 256 (so that the picture has about 1000)");
   if (!line.parse(call.arguments)) return ExitCode::kOk;
   PictureOptions options;
@@ -58,7 +78,7 @@ ExitCode runRender(const Call& call) {
   if (paths.empty()) throw InputError(line.text("plan") + ": its `paths` are empty: no plan");
   requireMatch(paths, readMovingAiScenario(line.text("scen"), *grid,
                                            static_cast<std::uint32_t>(paths.size())));
-  const Picture picture = drawPlan(*grid, paths, options);
+  const Picture picture = draw(line, *grid, paths, options);
   writePng(output, picture);
   std::cout << output << ": " << picture.width_px << "x" << picture.height_px << " pixels, "
             << paths.size() << (paths.size() == 1 ? " robot\n" : " robots\n");

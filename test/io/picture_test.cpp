@@ -181,5 +181,27 @@ TEST_F(PictureFileTest, WritesAPngThatReadsBack) {
             "cannot write no/a.png: No such file or directory");
 }
 
+TEST(PictureTest, ShowsRegionsBuffersAndStates) {
+  Layout layout;
+  layout.ownerships = {{0, 0, 1, 1, 0, 1, 1}, {0, 1, 1, 1, 0, 1, 1}};
+  layout.phases.push_back({0, {4}});
+  const CellPaths paths = {{{0, 0}, {1, 0}}};
+  PictureOptions options;
+  options.cell_px = 64;
+  const Picture picture = drawPlan(small_grid, paths, layout, 0, options);
+  const Looker look{picture, 64};
+  const Colour left = look.at(0.1, 0.9);
+  EXPECT_EQ(look.at(0.1, 1.1), left) << "both of region 0";
+  EXPECT_NE(look.at(2.5, 0.5) == left, true) << "region 1";
+  EXPECT_LT(brightnessOf(look.at(1.1, 0.9)), brightnessOf(left)) << "a buffer cell";
+  EXPECT_TRUE(alike(look.at(0.5, 1.5), robotColour(0), 3)) << "the state";
+  EXPECT_THROW(drawPlan(small_grid, paths, layout, 1), InputError) << "no such phase";
+  layout.phases[0].states = {};
+  EXPECT_THROW(drawPlan(small_grid, paths, layout, 0), InputError) << "no state for the robot";
+  layout.phases[0].states = {4};
+  layout.ownerships[1].pop_back();
+  EXPECT_THROW(drawPlan(small_grid, paths, layout, 0), InputError) << "of another map";
+}
+
 }  // namespace
 }  // namespace split_mapf

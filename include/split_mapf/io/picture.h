@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "split_mapf/core/grid.h"
+#include "split_mapf/core/layout.h"
 #include "split_mapf/io/cell_paths.h"
 
 namespace split_mapf {
@@ -50,6 +51,14 @@ struct PictureOptions {
 /// cell or a jump is drawn as it is), or when the picture would exceed 2^27 pixels; OptionError for
 /// an option out of range. Cost: O(pixels + moves * cell_px^2). Thread-safe.
 Picture drawPlan(const Grid& grid, const CellPaths& paths, const PictureOptions& options = {});
+
+/// Draws a plan over one phase of its space split: every region in a tint of its own, stronger in
+/// the buffer zones (the cells that change owner), and where the phase ends for each robot as a
+/// ringed dot in the robot's colour.
+/// @throws as drawPlan; InputError when the layout has no such phase, is not of this grid, or has
+/// not one state a robot.
+Picture drawPlan(const Grid& grid, const CellPaths& paths, const Layout& layout,
+                 std::uint32_t phase, const PictureOptions& options = {});
 
 /// Draws starts and goals alone, each pair joined by a faint straight line. @throws as drawPlan;
 /// InputError when the two lists differ in length.
