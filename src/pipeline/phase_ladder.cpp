@@ -25,7 +25,8 @@ PhaseLadder::PhaseLadder(SpaceSplit& split, PieceSolver& solver, RunLog& log, Ti
       log_(log),
       time_(std::move(time)),
       check_seams_(check_seams),
-      deadline_(deadline) {
+      deadline_(deadline),
+      rescuers_(solver.rescuers()) {
   time_.checker = nullptr;
 }
 
@@ -50,17 +51,16 @@ void PhaseLadder::build() {
   for (std::uint32_t phase = 0; phase < phases; ++phase) {
     for (RegionPiece& region : split_.piecesOf(phase)) {
       if (deadline_.expired()) return;  // what is solved of it ends at once
-      phases_[phase].push_back(makePiece(std::move(region), 1, false));
+      phases_[phase].push_back(makePiece(std::move(region), 1));
     }
   }
 }
 
-PhaseLadder::Piece PhaseLadder::makePiece(RegionPiece region, std::uint32_t shares,
-                                          bool rematched) {
+PhaseLadder::Piece PhaseLadder::makePiece(RegionPiece region, std::uint32_t shares, bool in_time) {
   std::vector<std::uint32_t> everyone(region.robots.size());
   std::iota(everyone.begin(), everyone.end(), 0U);
   std::optional<Decomposition> tree;
-  if (time_.ratios.size() > 1 && shares > 0) {
+  if (in_time && time_.ratios.size() > 1) {
     TimeSplitOptions options = time_;
     std::optional<SolvabilityChecker> checker;
     const Graph& graph = region.instance->graph();
@@ -73,7 +73,7 @@ PhaseLadder::Piece PhaseLadder::makePiece(RegionPiece region, std::uint32_t shar
   PieceSequence sequence(
       embed(std::move(*tree), region.robots, region.map, region.phase, region.region), time_,
       shares, false);
-  return {std::move(region), std::move(sequence), shares, rematched};
+  return {std::move(region), std::move(sequence), shares};
 }
 
 bool PhaseLadder::solveOpenPieces(std::vector<SubproblemReport>& rows, LadderOutcome& outcome) {
@@ -82,7 +82,11 @@ bool PhaseLadder::solveOpenPieces(std::vector<SubproblemReport>& rows, LadderOut
   for (Phase& phase : phases_) {
     for (Piece& piece : phase) {
       if (piece.sequence.state() != PieceSequence::State::kOpen) continue;
+      const std::size_t first = tasks.size();
       piece.sequence.addOpenTasks(tasks);
+      for (std::size_t i = first; piece.rescuer > 0 && i < tasks.size(); ++i) {
+        tasks[i].solver = rescuers_[piece.rescuer - 1];
+      }
       open.push_back(&piece.sequence);
     }
   }
@@ -119,7 +123,9 @@ bool PhaseLadder::repair(LadderOutcome& outcome) {
 }
 
 bool PhaseLadder::repairStuck(std::uint32_t phase, std::size_t index, LadderOutcome& outcome) {
-  if (rematch(phase, index) || mergeRegions(phase, index)) return true;
+  if (rematch(phase, index)) return true;
+  if (!phases_[phase][index].merged && mergeRegions(phase, index)) return true;
+  if (askRescuer(phases_[phase][index]) || mergeRegions(phase, index)) return true;
   Piece& piece = phases_[phase][index];
   if (phases_.size() > 1) {
     joinPhases(phase, 2 * piece.shares);
@@ -127,7 +133,10 @@ bool PhaseLadder::repairStuck(std::uint32_t phase, std::size_t index, LadderOutc
   }
   outcome.last = piece.sequence.lastResult();
   if (piece.shares == 0) return false;
-  piece = makePiece(std::move(piece.region), 0, true);
+  Piece whole = makePiece(std::move(piece.region), 0, false);
+  whole.rematched = whole.merged = true;
+  whole.rescuer = 0;
+  piece = std::move(whole);
   return true;
 }
 
@@ -135,45 +144,56 @@ bool PhaseLadder::rematch(std::uint32_t phase, std::size_t index) {
   Piece& piece = phases_[phase][index];
   if (piece.rematched) return false;
   piece.rematched = true;
-  if (!split_.rematch(phase, piece.region.region, deadline_)) return false;
-  piece = makePiece(split_.pieceOf(phase, piece.region.region), piece.shares, true);
+  const std::uint32_t region = piece.region.region;
+  if (!split_.rematch(phase, region, deadline_)) return false;
+  piece = makePiece(split_.pieceOf(phase, region), piece.shares);
+  piece.rematched = true;
   const std::vector<std::uint32_t> robots = piece.region.robots;
   for (Piece& next : phases_[phase + 1]) {
     if (!intersects(robots, next.region.robots)) continue;
-    next = makePiece(split_.pieceOf(phase + 1, next.region.region), next.shares, next.rematched);
+    const bool rematched = next.rematched;
+    next = makePiece(split_.pieceOf(phase + 1, next.region.region), next.shares);
+    next.rematched = rematched;
   }
+  return true;
+}
+
+bool PhaseLadder::askRescuer(Piece& piece) {
+  const bool hopeless = piece.sequence.lastResult().termination == Termination::kUnsolvable;
+  if (hopeless || piece.shares == 0 || piece.rescuer == rescuers_.size()) return false;
+  const std::size_t rescuer = piece.rescuer + 1;
+  Piece again = makePiece(std::move(piece.region), piece.shares, false);
+  again.rematched = again.merged = true;
+  again.rescuer = rescuer;
+  piece = std::move(again);
   return true;
 }
 
 bool PhaseLadder::mergeRegions(std::uint32_t phase, std::size_t index) {
   Phase& pieces = phases_[phase];
   const std::uint32_t gone = pieces[index].region.region;
+  std::uint32_t shares = pieces[index].shares;
   const std::optional<std::uint32_t> region = split_.mergeRegion(phase, gone);
   if (!region) return false;
-  std::uint32_t shares = 1;
+  const auto merges = [&](const Piece& piece) {
+    return piece.region.region == gone || piece.region.region == *region;
+  };
   for (const Piece& piece : pieces) {
-    if (piece.region.region == gone || piece.region.region == *region) {
-      shares = std::max(shares, 2 * piece.shares);
-    }
+    if (merges(piece)) shares = std::max(shares, piece.shares);
   }
-  pieces.erase(std::remove_if(pieces.begin(), pieces.end(),
-                              [&](const Piece& piece) {
-                                return piece.region.region == gone ||
-                                       piece.region.region == *region;
-                              }),
-               pieces.end());
-  pieces.push_back(makePiece(split_.pieceOf(phase, *region), shares, true));
+  pieces.erase(std::remove_if(pieces.begin(), pieces.end(), merges), pieces.end());
+  pieces.push_back(makePiece(split_.pieceOf(phase, *region), shares));
+  pieces.back().rematched = pieces.back().merged = true;
   return true;
 }
 
 void PhaseLadder::joinPhases(std::uint32_t phase, std::uint32_t shares) {
   const std::uint32_t joint = split_.joinPhases(phase);
   phases_.erase(phases_.begin() + joint);
-  // The whole instance may take as long as it likes.
-  if (phases_.size() == 1) shares = 0;
   phases_[joint].clear();
   for (RegionPiece& region : split_.piecesOf(joint)) {
-    phases_[joint].push_back(makePiece(std::move(region), shares, true));
+    phases_[joint].push_back(makePiece(std::move(region), shares));
+    phases_[joint].back().rematched = phases_[joint].back().merged = true;
   }
   // The phases behind have a new number.
   for (std::uint32_t later = joint + 1; later < phases_.size(); ++later) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "pipeline/piece_ladder.h"
@@ -11,9 +12,10 @@ namespace split_mapf {
 
 /// Solves the regions of all phases of a space split in one pool, each cut in time where wanted,
 /// and never gets stuck. A region whose pieces fail down to one gets other intermediate states;
-/// then it is merged with its neighbour for that phase, with twice the effort, and so on up to the
-/// whole graph; then two phases become one; in the end there is one piece, the whole instance,
-/// without a limit. Deterministic as PieceLadder is.
+/// then it is merged with its neighbour for that phase; then it is given to other solvers
+/// (PieceSolver::rescuers()); then merged on, up to the whole graph; then two phases become one; in
+/// the end there is one piece, the whole instance, without a limit. Deterministic as PieceLadder
+/// is.
 class PhaseLadder {
  public:
   /// @param time  how to cut each region's piece in time; its checker is not used.
@@ -28,13 +30,16 @@ class PhaseLadder {
   struct Piece {
     RegionPiece region;
     PieceSequence sequence;
-    std::uint32_t shares;  ///< of the usual effort, for the piece as one
-    bool rematched;        ///< its states were drawn anew already
+    std::uint32_t shares;     ///< of the usual effort, for the piece as one
+    bool rematched = false;   ///< its states were drawn anew already
+    bool merged = false;      ///< it is more than one region
+    std::size_t rescuer = 0;  ///< how many of the rescuers have been asked
   };
   using Phase = std::vector<Piece>;
 
   void build();
-  Piece makePiece(RegionPiece region, std::uint32_t shares, bool rematched);
+  /// @param in_time  whether it is cut in time where that is wanted.
+  Piece makePiece(RegionPiece region, std::uint32_t shares, bool in_time = true);
   /// Solves what is open. False when the climb is over without a plan.
   bool solveOpenPieces(std::vector<SubproblemReport>& rows, LadderOutcome& outcome);
   /// False when nothing can be done any more.
@@ -42,6 +47,7 @@ class PhaseLadder {
   bool repairStuck(std::uint32_t phase, std::size_t index, LadderOutcome& outcome);
   bool rematch(std::uint32_t phase, std::size_t index);
   bool mergeRegions(std::uint32_t phase, std::size_t index);
+  bool askRescuer(Piece& piece);
   void joinPhases(std::uint32_t phase, std::uint32_t shares);
   LadderOutcome finish(LadderOutcome outcome);
 
@@ -51,6 +57,7 @@ class PhaseLadder {
   TimeSplitOptions time_;
   bool check_seams_;
   const Deadline& deadline_;
+  std::vector<std::string> rescuers_;
   std::vector<Phase> phases_;
 };
 

@@ -44,7 +44,7 @@ PieceSequence::State PieceSequence::state() const {
 void PieceSequence::addOpenTasks(std::vector<PieceTask>& tasks) const {
   for (const Piece& piece : pieces_) {
     if (piece.plan) continue;
-    tasks.push_back({&piece.leaf, isOnePiece() ? last_share_ : piece.shares});
+    tasks.push_back({&piece.leaf, isOnePiece() ? last_share_ : piece.shares, ""});
   }
 }
 

@@ -1,5 +1,6 @@
 #include "pipeline/piece_solver.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <new>
@@ -54,6 +55,16 @@ std::vector<SolveResult> PieceSolver::solve(const std::vector<PieceTask>& tasks,
   return results;
 }
 
+std::vector<std::string> PieceSolver::rescuers() const {
+  const std::vector<std::string> known = solvers_.names();
+  std::vector<std::string> result;
+  for (const char* name : {"conflict_optimizer", "lacam", "prioritized"}) {
+    if (name == request_.solver) continue;
+    if (std::find(known.begin(), known.end(), name) != known.end()) result.emplace_back(name);
+  }
+  return result;
+}
+
 SolveResult PieceSolver::solveOne(const PieceTask& task, const Deadline& deadline,
                                   SubproblemReport& row) const {
   const Deadline::Clock::time_point begin = Deadline::Clock::now();
@@ -61,15 +72,16 @@ SolveResult PieceSolver::solveOne(const PieceTask& task, const Deadline& deadlin
   row.phase = task.leaf->phase;
   row.region = task.leaf->region;
   row.agents = piece.robots();
-  row.solver = request_.solver;
+  row.solver = task.solver.empty() ? request_.solver : task.solver;
   SolveResult result;
   if (deadline.expired()) {
     result.termination = interruptionOf(deadline);
   } else {
     try {
       SolverOptions options = request_.solver_options;
+      if (row.solver != request_.solver) options.values.clear();
       if (task.shares > 0) options.expansion_limit = task.shares * usualEffort(piece);
-      result = solvers_.create(request_.solver, options)->solve(piece, deadline);
+      result = solvers_.create(row.solver, options)->solve(piece, deadline);
       row.horizon = makespanLowerBound(piece);
     } catch (const std::bad_alloc&) {
       result = SolveResult();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "pipeline/checked_request.h"
@@ -15,6 +16,7 @@ namespace split_mapf {
 struct PieceTask {
   const Decomposition* leaf = nullptr;
   std::uint32_t shares = 0;  ///< multiples of the usual effort after which it gives up; 0: no limit
+  std::string solver;        ///< another one than the request's; empty: that one
 };
 
 /// Solves pieces in worker threads, longest expected first.
@@ -29,6 +31,10 @@ class PieceSolver {
   /// makes them useless; one that merely has no plan does not.
   std::vector<SolveResult> solve(const std::vector<PieceTask>& tasks,
                                  std::vector<SubproblemReport>& rows);
+
+  /// Solvers that may find a plan for a piece where the request's own has failed, the one whose
+  /// plans are best first.
+  std::vector<std::string> rescuers() const;
 
  private:
   SolveResult solveOne(const PieceTask& task, const Deadline& deadline,

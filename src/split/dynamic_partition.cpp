@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "split/balanced_regions.h"
+#include "split/narrow_borders.h"
 #include "split/region_repair.h"
 #include "split_mapf/split/partition.h"
 
@@ -121,7 +122,8 @@ class Buffers {
 
 Partition partitionDynamic(const Instance& instance, std::uint32_t regions, BufferSize buffer) {
   const Units units = corridorUnits(instance.graph());
-  const Ownership base = balancedRegions(instance.grid(), units, regions);
+  Ownership base = balancedRegions(instance.grid(), units, regions);
+  narrowBorders(instance.graph(), units, base);
   Buffers buffers(instance.grid(), units, base, buffer);
   // Never so deep that little is left of a region between its borders.
   std::uint32_t deepest = std::max(1U, buffer.across / 2);
