@@ -26,6 +26,7 @@ ExitCode runValidate(const Call& call);
 ExitCode runCheck(const Call& call);
 ExitCode runGenerate(const Call& call);
 ExitCode runRender(const Call& call);
+ExitCode runBench(const Call& call);
 ExitCode runSolvers(const Call& call);
 
 }  // namespace split_mapf::tool

@@ -18,6 +18,7 @@ const std::vector<Command>& commands() {
       {"check", "decide whether a plan exists", runCheck},
       {"generate", "generate a map and a scenario", runGenerate},
       {"render", "draw a plan as a PNG picture", runRender},
+      {"bench", "plan many combinations and write a CSV table", runBench},
       {"solvers", "list solvers and their options", runSolvers},
   };
   return list;
