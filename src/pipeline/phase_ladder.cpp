@@ -10,6 +10,9 @@ namespace {
 // Seams of a piece are checked where its robots fill more than this share of its cells.
 constexpr std::uint32_t kCrowdedCellsARobot = 4;
 
+// A piece has little to do in its region, and where it takes more than this others help.
+constexpr std::uint64_t kLeastEffort = 60000;
+
 bool intersects(const std::vector<std::uint32_t>& sorted, const std::vector<std::uint32_t>& other) {
   return std::any_of(other.begin(), other.end(), [&](std::uint32_t robot) {
     return std::binary_search(sorted.begin(), sorted.end(), robot);
@@ -84,8 +87,12 @@ bool PhaseLadder::solveOpenPieces(std::vector<SubproblemReport>& rows, LadderOut
       if (piece.sequence.state() != PieceSequence::State::kOpen) continue;
       const std::size_t first = tasks.size();
       piece.sequence.addOpenTasks(tasks);
-      for (std::size_t i = first; piece.rescuer > 0 && i < tasks.size(); ++i) {
-        tasks[i].solver = rescuers_[piece.rescuer - 1];
+      for (std::size_t i = first; i < tasks.size(); ++i) {
+        if (piece.rescuer > 0) {
+          tasks[i].solver = rescuers_[piece.rescuer - 1];
+        } else if (!rescuers_.empty()) {
+          tasks[i].least_effort = kLeastEffort;
+        }
       }
       open.push_back(&piece.sequence);
     }

@@ -44,7 +44,9 @@ PieceSequence::State PieceSequence::state() const {
 void PieceSequence::addOpenTasks(std::vector<PieceTask>& tasks) const {
   for (const Piece& piece : pieces_) {
     if (piece.plan) continue;
-    tasks.push_back({&piece.leaf, isOnePiece() ? last_share_ : piece.shares, ""});
+    PieceTask& task = tasks.emplace_back();
+    task.leaf = &piece.leaf;
+    task.shares = isOnePiece() ? last_share_ : piece.shares;
   }
 }
 

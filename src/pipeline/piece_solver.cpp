@@ -21,12 +21,11 @@ double expectedEffort(const Decomposition& leaf) {
 }
 
 // A piece usually takes a few expansions a step of its robots' shortest ways; this many mean that
-// its search has run into trouble. The floor keeps small pieces from giving up at once.
+// its search has run into trouble.
 constexpr std::uint64_t kExpansionsAStep = 60;
-constexpr std::uint64_t kLeastExpansions = 300000;
 
-std::uint64_t usualEffort(const Instance& piece) {
-  return kLeastExpansions + kExpansionsAStep * sumOfCostsLowerBound(piece);
+std::uint64_t usualEffort(const PieceTask& task, const Instance& piece) {
+  return task.least_effort + kExpansionsAStep * sumOfCostsLowerBound(piece);
 }
 
 bool endsTheRun(Termination termination) {
@@ -80,7 +79,7 @@ SolveResult PieceSolver::solveOne(const PieceTask& task, const Deadline& deadlin
     try {
       SolverOptions options = request_.solver_options;
       if (row.solver != request_.solver) options.values.clear();
-      if (task.shares > 0) options.expansion_limit = task.shares * usualEffort(piece);
+      if (task.shares > 0) options.expansion_limit = task.shares * usualEffort(task, piece);
       result = solvers_.create(row.solver, options)->solve(piece, deadline);
       row.horizon = makespanLowerBound(piece);
     } catch (const std::bad_alloc&) {

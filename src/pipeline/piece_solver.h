@@ -16,7 +16,9 @@ namespace split_mapf {
 struct PieceTask {
   const Decomposition* leaf = nullptr;
   std::uint32_t shares = 0;  ///< multiples of the usual effort after which it gives up; 0: no limit
-  std::string solver;        ///< another one than the request's; empty: that one
+  /// What the usual effort is at least [expansions], so that small pieces do not give up at once.
+  std::uint64_t least_effort = 300000;
+  std::string solver;  ///< another one than the request's; empty: that one
 };
 
 /// Solves pieces in worker threads, longest expected first.

@@ -216,6 +216,11 @@ void PlanRun::accept(Plan plan) {
   if (report_.subproblems.size() > 1) {
     report_.message += " in " + std::to_string(report_.subproblems.size()) + " pieces";
   }
+  const auto helped = std::count_if(
+      report_.subproblems.begin(), report_.subproblems.end(), [this](const SubproblemReport& row) {
+        return row.solver != request_.solver && row.status == toString(Termination::kSolved);
+      });
+  if (helped > 0) report_.message += ", " + std::to_string(helped) + " of them by other solvers";
   log_.setPlan(report_.makespan, report_.sum_of_costs);
   report_.plan = std::move(plan);
 }

@@ -126,6 +126,7 @@ TEST(PhaseLadder, HandsWhatFailsToAnotherSolver) {
     told = told || row.solver == "prioritized";
   }
   EXPECT_TRUE(told);
+  EXPECT_NE(report.message.find("by other solvers"), std::string::npos) << report.message;
 }
 
 TEST(PhaseLadder, EndsWithTheWholeHoweverManyPiecesFail) {
