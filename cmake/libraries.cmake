@@ -1,6 +1,8 @@
 # The ROS-free core library and the command.
 file(GLOB SPLIT_MAPF_CORE_SOURCES CONFIGURE_DEPENDS
   src/core/*.cpp src/io/*.cpp src/solver/*.cpp src/solver/*/*.cpp src/split/*.cpp src/pipeline/*.cpp)
+# What links GLPK is no part of it: see ilp.cmake.
+list(FILTER SPLIT_MAPF_CORE_SOURCES EXCLUDE REGEX "/src/solver/(ilp\\.cpp|ilp/|available/)")
 add_library(split_mapf_core ${SPLIT_MAPF_CORE_SOURCES})
 target_include_directories(split_mapf_core
   PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/include
@@ -10,15 +12,18 @@ target_link_libraries(split_mapf_core
   PRIVATE Boost::boost ${YAML_CPP_LIBRARIES} nlohmann_json::nlohmann_json PNG::PNG ZLIB::ZLIB)
 split_mapf_compile_options(split_mapf_core)
 
+include(cmake/ilp.cmake)
+
 file(GLOB SPLIT_MAPF_TOOL_SOURCES CONFIGURE_DEPENDS src/tool/*.cpp)
 add_executable(split_mapf ${SPLIT_MAPF_TOOL_SOURCES})
 target_include_directories(split_mapf PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
 target_compile_definitions(split_mapf PRIVATE SPLIT_MAPF_VERSION="${PROJECT_VERSION}")
-target_link_libraries(split_mapf PRIVATE split_mapf_core Boost::program_options nlohmann_json::nlohmann_json)
+target_link_libraries(split_mapf PRIVATE
+  split_mapf_available_solvers Boost::program_options nlohmann_json::nlohmann_json)
 split_mapf_compile_options(split_mapf)
 
 if(NOT SPLIT_MAPF_ROS)
-  install(TARGETS split_mapf_core split_mapf
+  install(TARGETS split_mapf_core ${SPLIT_MAPF_ILP_LIBRARY} split_mapf
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

@@ -12,10 +12,11 @@ foreach(node planner_node replay_node)
   target_link_libraries(${node} PRIVATE split_mapf_ros)
   split_mapf_compile_options(${node})
 endforeach()
+target_link_libraries(planner_node PRIVATE split_mapf_available_solvers)
 
 catkin_install_python(PROGRAMS scripts/plan_client.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-install(TARGETS split_mapf_core split_mapf_ros
+install(TARGETS split_mapf_core ${SPLIT_MAPF_ILP_LIBRARY} split_mapf_ros
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})

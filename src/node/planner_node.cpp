@@ -7,6 +7,7 @@
 
 #include <ros/ros.h>
 
+#include "solver/available/available_solvers.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/pipeline/executor.h"
 #include "split_mapf/pipeline/planner.h"
@@ -19,7 +20,6 @@
 #include "split_mapf/ros/plan_services.h"
 #include "split_mapf/ros/pose_transformer.h"
 #include "split_mapf/ros/server_diagnostics.h"
-#include "split_mapf/solver/registry.h"
 
 namespace {
 
@@ -51,7 +51,7 @@ void run() {
 
   const std::uint32_t workers = workersFor(options);
   split_mapf::Executor executor(workers);
-  const split_mapf::SolverRegistry& solvers = split_mapf::builtinSolvers();
+  const split_mapf::SolverRegistry& solvers = split_mapf::availableSolvers();
   const split_mapf::Planner planner(solvers, executor);
   planner.requireValid(options.goal.plan);
 

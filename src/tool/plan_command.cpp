@@ -5,13 +5,13 @@
 #include <optional>
 #include <system_error>
 
+#include "solver/available/available_solvers.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/io/map_file.h"
 #include "split_mapf/io/movingai.h"
 #include "split_mapf/io/plan_json.h"
 #include "split_mapf/pipeline/planner.h"
-#include "split_mapf/solver/registry.h"
 #include "tool/commands.h"
 #include "tool/files.h"
 #include "tool/memory_limit.h"
@@ -86,7 +86,7 @@ class PlanCall {
 
  private:
   PlanReport plan() {
-    const Planner planner(builtinSolvers(), *executor_);
+    const Planner planner(availableSolvers(), *executor_);
     planner.requireValid(options_.request);  // before files are read for nothing
     try {
       instance_.emplace(readInstance(options_, begin_of_call_));

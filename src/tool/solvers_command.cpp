@@ -1,7 +1,7 @@
 #include <iomanip>
 #include <iostream>
 
-#include "split_mapf/solver/registry.h"
+#include "solver/available/available_solvers.h"
 #include "split_mapf/split/split_options.h"
 #include "tool/command_line.h"
 #include "tool/commands.h"
@@ -20,8 +20,8 @@ void printOption(const Option& option) {
 ExitCode runSolvers(const Call& call) {
   CommandLine line("solvers", "Lists the solvers with their options, then the split options.");
   if (!line.parse(call.arguments)) return ExitCode::kOk;
-  for (const std::string& name : builtinSolvers().names()) {
-    const SolverInfo& solver = builtinSolvers().info(name);
+  for (const std::string& name : availableSolvers().names()) {
+    const SolverInfo& solver = availableSolvers().info(name);
     std::cout << name << "\n    " << solver.description << "\n";
     for (const OptionInfo& option : solver.options) printOption(option);
   }

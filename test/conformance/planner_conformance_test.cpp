@@ -6,6 +6,7 @@
 #include <string>
 #include <tuple>
 
+#include "solver/available/available_solvers.h"
 #include "split_mapf/core/validate.h"
 #include "split_mapf/pipeline/planner.h"
 #include "support/oracle_cases.h"
@@ -32,7 +33,7 @@ class PlannerConformance
     request.solver = std::get<0>(GetParam());
     request.split = std::get<1>(GetParam());
     request.objective = objective();
-    return Planner(builtinSolvers(), executor_).plan(instance, request, Deadline(limit_sec));
+    return Planner(availableSolvers(), executor_).plan(instance, request, Deadline(limit_sec));
   }
 
   void expectHonest(const Instance& instance, const PlanReport& report,
@@ -80,7 +81,7 @@ TEST_P(PlannerConformance, IsHonestOnSmallInstances) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Builtin, PlannerConformance,
-                         ::testing::Combine(::testing::ValuesIn(builtinSolvers().names()),
+                         ::testing::Combine(::testing::ValuesIn(availableSolvers().names()),
                                             ::testing::Values("none", "2t", "3t", "t(0.3,0.7)"),
                                             ::testing::Values(Objective::kMakespan,
                                                               Objective::kSumOfCosts)),

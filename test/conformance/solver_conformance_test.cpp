@@ -10,9 +10,9 @@
 #include <tuple>
 #include <vector>
 
+#include "solver/available/available_solvers.h"
 #include "split_mapf/core/generator.h"
 #include "split_mapf/core/validate.h"
-#include "split_mapf/solver/registry.h"
 #include "support/ascii_grid.h"
 #include "support/oracle_cases.h"
 #include "support/small_instances.h"
@@ -53,7 +53,7 @@ class SolverConformance : public ::testing::TestWithParam<std::tuple<std::string
     options.objective = objective();
     options.suboptimality = suboptimality;
     options.seed = seed;
-    return builtinSolvers().create(std::get<0>(GetParam()), options);
+    return availableSolvers().create(std::get<0>(GetParam()), options);
   }
 
   /// What holds for every answer to an instance whose optimum is known.
@@ -211,7 +211,7 @@ TEST_P(SolverConformance, TheSameSeedGivesTheSamePlanAlsoToConcurrentCallers) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Builtin, SolverConformance,
-                         ::testing::Combine(::testing::ValuesIn(builtinSolvers().names()),
+                         ::testing::Combine(::testing::ValuesIn(availableSolvers().names()),
                                             ::testing::Values(Objective::kMakespan,
                                                               Objective::kSumOfCosts)),
                          [](const auto& info) {

@@ -24,6 +24,11 @@ if [[ $linked != *"$scratch/install/lib/libsplit_mapf_core"* ]]; then
   printf 'the program was not linked with the installed library:\n%s\n' "$linked" >&2
   exit 1
 fi
+# GLPK is GPL-3: only who asks for split_mapf_ilp gets it.
+if [[ $linked == *libglpk* ]]; then
+  printf 'the program was linked with GLPK unasked:\n%s\n' "$linked" >&2
+  exit 1
+fi
 "$program" | tee "$scratch/output"
 grep -qx 'planned 2 robots, makespan [2-9]' "$scratch/output"
 

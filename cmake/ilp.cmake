@@ -1,0 +1,27 @@
+# The exact solver in a library of its own: the only target that links GLPK, which is GPL-3.
+if(SPLIT_MAPF_ILP)
+  find_path(GLPK_INCLUDE_DIR glpk.h)
+  find_library(GLPK_LIBRARY glpk)
+  mark_as_advanced(GLPK_INCLUDE_DIR GLPK_LIBRARY)
+  if(NOT GLPK_INCLUDE_DIR OR NOT GLPK_LIBRARY)
+    message(FATAL_ERROR "GLPK is missing (Debian and Ubuntu: libglpk-dev). Install it, or leave the "
+      "solver `ilp` out with -DSPLIT_MAPF_ILP=OFF")
+  endif()
+  file(GLOB SPLIT_MAPF_ILP_SOURCES CONFIGURE_DEPENDS src/solver/ilp.cpp src/solver/ilp/*.cpp)
+  add_library(split_mapf_ilp ${SPLIT_MAPF_ILP_SOURCES})
+  target_include_directories(split_mapf_ilp PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+  target_include_directories(split_mapf_ilp SYSTEM PRIVATE ${GLPK_INCLUDE_DIR})
+  target_link_libraries(split_mapf_ilp PUBLIC split_mapf_core PRIVATE Boost::boost ${GLPK_LIBRARY})
+  split_mapf_compile_options(split_mapf_ilp)
+  set(SPLIT_MAPF_ILP_LIBRARY split_mapf_ilp)
+endif()
+
+# What the programs offer: the core's solvers, and the exact one where it was built.
+add_library(split_mapf_available_solvers STATIC src/solver/available/available_solvers.cpp)
+target_include_directories(split_mapf_available_solvers PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/src)
+target_link_libraries(split_mapf_available_solvers PUBLIC split_mapf_core)
+if(SPLIT_MAPF_ILP)
+  target_compile_definitions(split_mapf_available_solvers PRIVATE SPLIT_MAPF_HAS_ILP)
+  target_link_libraries(split_mapf_available_solvers PUBLIC split_mapf_ilp)
+endif()
+split_mapf_compile_options(split_mapf_available_solvers)

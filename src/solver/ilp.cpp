@@ -1,0 +1,167 @@
+#include "split_mapf/solver/ilp.h"
+
+#include <cstdio>
+#include <memory>
+#include <utility>
+
+#include "solver/ilp/arc_flow.h"
+#include "solver/ilp/column_generation.h"
+#include "solver/ilp/upper_bound.h"
+#include "split_mapf/core/error.h"
+#include "split_mapf/core/option_values.h"
+#include "split_mapf/core/solvability.h"
+
+namespace split_mapf {
+namespace {
+
+using ilp::EngineResult;
+using ilp::SearchEnd;
+
+// So many pricing states take about as long as one expansion of a safe interval search and its
+// share of the linear programs.
+constexpr std::uint64_t kStatesAnExpansion = 100;
+// A piece of a split leaves time to its siblings: its proof takes no more than this share of what
+// is left.
+constexpr double kShareOfAPiece = 0.25;
+
+/// What is known before the engine starts.
+SolveResult unsolvable(const SolvabilityVerdict& verdict, const Grid& grid) {
+  SolveResult result;
+  result.termination = Termination::kUnsolvable;
+  result.message = explain(verdict, grid);
+  return result;
+}
+
+/// "12 nodes, 345 linear programs of up to 678 columns and 901 rows"
+std::string textOf(const ilp::SearchCounts& counts) {
+  return std::to_string(counts.nodes) + " nodes, " + std::to_string(counts.linear_programs) +
+         " linear programs of up to " + std::to_string(counts.columns) + " columns and " +
+         std::to_string(counts.rows) + " rows";
+}
+
+/// "lower bound 1740, upper bound 1742, gap 0.12 %"
+std::string gapText(std::uint64_t lower, std::uint64_t upper) {
+  char percent[32];
+  std::snprintf(
+      percent, sizeof percent, "%.2f",
+      100.0 * static_cast<double>(upper - lower) / static_cast<double>(lower == 0 ? 1 : lower));
+  return "lower bound " + std::to_string(lower) + ", upper bound " + std::to_string(upper) +
+         ", gap " + percent + " %";
+}
+
+std::string reasonOf(const EngineResult& found, const Deadline& deadline, std::uint64_t memory_mb) {
+  switch (found.end) {
+    case SearchEnd::kExhausted:
+      return "";
+    case SearchEnd::kInterrupted:
+      return deadline.stopRequested() ? "cancelled" : "stopped by the clock";
+    case SearchEnd::kEffort:
+      return "stopped by the limit of expansions";
+    case SearchEnd::kFailed:
+      return found.failure;
+    case SearchEnd::kMemory:
+      break;
+  }
+  const std::string limit = std::to_string(memory_mb) + " MiB of memory_mb";
+  if (found.needed_mb == 0) return "the search has used up its " + limit;
+  return "the model would take at least " + std::to_string(found.needed_mb) +
+         " MiB, more than the " + limit;
+}
+
+Termination terminationOf(SearchEnd end, const Deadline& deadline) {
+  switch (end) {
+    case SearchEnd::kInterrupted:
+      return interruptionOf(deadline);
+    case SearchEnd::kMemory:
+      return Termination::kMemoryLimit;
+    default:
+      return Termination::kNoPlanFound;
+  }
+}
+
+/// Puts together what the engine and the upper bound before it have found.
+SolveResult conclude(EngineResult found, Objective objective, const std::string& engine,
+                     const std::string& reason, const Deadline& deadline) {
+  SolveResult result;
+  result.lower_bound = found.lower_bound;
+  result.high_level_nodes = found.counts.nodes;
+  result.low_level_expansions = found.counts.expansions / kStatesAnExpansion;
+  if (!found.plan) {
+    result.termination = terminationOf(found.end, deadline);
+    result.message = reason + "; lower bound " + std::to_string(found.lower_bound);
+    return result;
+  }
+  result.termination = Termination::kSolved;
+  result.plan = std::move(found.plan);
+  const bool searched = found.counts.nodes > 0;
+  certifyByLowerBound(result, objective, "ilp/" + (searched ? engine : "shortest_paths"));
+  const std::uint64_t cost = costOf(*result.plan, objective);
+  if (result.optimal) {
+    result.message = "optimal, certified by " + result.certified_by + ": ";
+  } else if (!reason.empty()) {
+    result.message = reason + ": ";
+  }
+  result.message += gapText(result.lower_bound, cost) + "; " + textOf(found.counts);
+  return result;
+}
+
+}  // namespace
+
+IlpSolver::IlpSolver(const SolverOptions& options)
+    : objective_(options.objective),
+      seed_(options.seed),
+      expansion_limit_(options.expansion_limit) {
+  const OptionValues values(options.values);
+  settings_.engine = values.choice("engine", settings_.engine, {"column_generation", "arc_flow"});
+  settings_.heuristic = values.flag("heuristic", settings_.heuristic);
+  settings_.memory_mb = values.count("memory_mb", settings_.memory_mb);
+  if (settings_.memory_mb == 0) throw OptionError("option memory_mb=0: at least 1 is expected");
+}
+
+SolverInfo IlpSolver::info() {
+  const Settings defaults;
+  return {"ilp",
+          "integer linear programming on GLPK: exact, for small teams and pieces of a split",
+          {{"engine", defaults.engine,
+            "column_generation, or arc_flow: the paper's formulation, as a reference"},
+           {"heuristic", defaults.heuristic ? "true" : "false",
+            "whether a heuristic plan may begin the search, or certify itself"},
+           {"memory_mb", std::to_string(defaults.memory_mb), "MiB that the program may take"}},
+          [](const SolverOptions& options) { return std::make_unique<IlpSolver>(options); }};
+}
+
+SolveResult IlpSolver::solve(const Instance& instance, const Deadline& deadline) const {
+  if (const auto robot = findCutOffRobot(instance)) return cutOffResult(*robot);
+  const SolvabilityVerdict verdict = checkSolvable(instance, deadline);
+  if (verdict.answer == Solvability::kUnsolvable) return unsolvable(verdict, instance.grid());
+  SolveResult stopped;
+  if (deadline.expired()) {
+    stopped.termination = interruptionOf(deadline);
+    return stopped;
+  }
+  ilp::UpperBound upper_bound(instance, objective_, seed_, deadline);
+  ilp::Effort effort;
+  effort.deadline = deadline;
+  effort.memory_mb = settings_.memory_mb;
+  effort.expansions = expansion_limit_ * kStatesAnExpansion;
+  ilp::Rounding rounding;
+  std::optional<Plan> known;
+  if (settings_.heuristic) {
+    known = upper_bound.find(expansion_limit_);
+    rounding = [&upper_bound](const std::vector<ilp::UsedPath>& used, std::uint64_t limit) {
+      return upper_bound.round(used, limit);
+    };
+    if (known && expansion_limit_ > 0) {
+      effort.deadline = deadline.within(kShareOfAPiece * deadline.remainingSec());
+    }
+  }
+  EngineResult found =
+      settings_.engine == "arc_flow"
+          ? ilp::solveByArcFlow(instance, objective_, known, effort)
+          : ilp::solveByColumnGeneration(instance, objective_, known, effort, rounding);
+  const std::string reason = reasonOf(found, deadline, settings_.memory_mb);
+  if (!found.plan) found.plan = std::move(known);
+  return conclude(std::move(found), objective_, settings_.engine, reason, deadline);
+}
+
+}  // namespace split_mapf
