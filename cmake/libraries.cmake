@@ -3,7 +3,11 @@ file(GLOB SPLIT_MAPF_CORE_SOURCES CONFIGURE_DEPENDS
   src/core/*.cpp src/io/*.cpp src/solver/*.cpp src/solver/*/*.cpp src/split/*.cpp src/pipeline/*.cpp)
 # What links GLPK is no part of it: see ilp.cmake.
 list(FILTER SPLIT_MAPF_CORE_SOURCES EXCLUDE REGEX "/src/solver/(ilp\\.cpp|ilp/|available/)")
-add_library(split_mapf_core ${SPLIT_MAPF_CORE_SOURCES})
+# What `auto` expects of each method is data, built in so that the library finds it anywhere.
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS config/cost_model.yaml)
+file(READ config/cost_model.yaml SPLIT_MAPF_COST_MODEL)
+configure_file(cmake/cost_model.cpp.in cost_model.cpp @ONLY)
+add_library(split_mapf_core ${SPLIT_MAPF_CORE_SOURCES} ${CMAKE_CURRENT_BINARY_DIR}/cost_model.cpp)
 target_include_directories(split_mapf_core
   PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/include
   PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src ${YAML_CPP_INCLUDE_DIR})

@@ -13,9 +13,9 @@ namespace {
 SplitSpec checkSplit(const PlanRequest& request,
                      const std::map<std::string, std::string>& options) {
   SplitSpec split = parseSplitSpec(request.split);
-  if (split.kind == SplitSpec::Kind::kAuto) split = SplitSpec{};
-  if (!options.empty() && split.kind == SplitSpec::Kind::kNone) {
-    throw OptionError("split options need a split, but split '" + request.split + "' makes none");
+  if (!options.empty() && split.kind != SplitSpec::Kind::kSplit) {
+    throw OptionError("split options need a split, but split '" + request.split +
+                      (split.kind == SplitSpec::Kind::kAuto ? "' may make none" : "' makes none"));
   }
   if (split.space) return split;
   for (const SplitOptionInfo& option : splitOptions()) {
@@ -58,12 +58,16 @@ CheckedRequest check(const PlanRequest& request, const SolverRegistry& solvers) 
   CheckedRequest checked;
   checked.asked = request;
   checkNumbers(request);
-  checked.solver = request.solver == "auto" ? "ecbs" : request.solver;
+  checked.solver = request.solver;
   checked.solver_options.objective = request.objective;
   checked.solver_options.suboptimality = request.suboptimality;
   checked.solver_options.seed = request.seed;
   checked.solver_options.values = parseNamedValues(request.solver_options, "solver option");
-  solvers.create(checked.solver, checked.solver_options);
+  if (request.solver != "auto") {
+    solvers.create(checked.solver, checked.solver_options);
+  } else if (!checked.solver_options.values.empty()) {
+    throw OptionError("solver options belong to a solver, but solver 'auto' chooses one");
+  }
   const auto values = parseNamedValues(request.split_options, "split option");
   checked.split_options = readSplitOptions(values, request.objective);
   checked.split = checkSplit(request, values);

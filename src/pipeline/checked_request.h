@@ -11,9 +11,9 @@ namespace split_mapf {
 /// A request whose every option has been read and found right.
 struct CheckedRequest {
   PlanRequest asked;
-  std::string solver;  ///< what `auto` stands for, or as asked
+  std::string solver;  ///< as asked; what `auto` stands for depends on the instance
   SolverOptions solver_options;
-  SplitSpec split;  ///< never kAuto
+  SplitSpec split;  ///< likewise
   SplitOptions split_options;
 };
 

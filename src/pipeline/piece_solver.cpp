@@ -57,7 +57,7 @@ std::vector<SolveResult> PieceSolver::solve(const std::vector<PieceTask>& tasks,
 std::vector<std::string> PieceSolver::rescuers() const {
   const std::vector<std::string> known = solvers_.names();
   std::vector<std::string> result;
-  for (const char* name : {"conflict_optimizer", "lacam", "prioritized"}) {
+  for (const char* name : {"conflict_optimizer", "lacam", "prioritized", "ecbs"}) {
     if (name == request_.solver) continue;
     if (std::find(known.begin(), known.end(), name) != known.end()) result.emplace_back(name);
   }

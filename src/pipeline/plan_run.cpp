@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "pipeline/auto_choice.h"
 #include "pipeline/phase_ladder.h"
 #include "pipeline/refine.h"
 #include "pipeline/replan_singly.h"
@@ -13,6 +14,16 @@
 #include "split_mapf/core/validate.h"
 
 namespace split_mapf {
+namespace {
+
+// Robots whose conflicts hang together up to this number are worth a search for the optimum.
+constexpr std::uint32_t kSmallKnot = 20;
+constexpr std::uint64_t kOptimumExpansions = 50000;
+// What the solver that `auto` chose may take before others are called: many times the usual.
+constexpr std::uint64_t kLeastExpansions = 5000000;
+constexpr std::uint64_t kExpansionsAStep = 1000;
+
+}  // namespace
 
 PlanRun::PlanRun(const Instance& instance, CheckedRequest request, const SolverRegistry& solvers,
                  Executor& executor, const Deadline& deadline, const ProgressCallback& progress)
@@ -22,6 +33,7 @@ PlanRun::PlanRun(const Instance& instance, CheckedRequest request, const SolverR
       deadline_(deadline),
       log_(progress),
       checker_(instance.graph()),
+      solvers_(solvers),
       piece_solver_(request_, solvers, executor, deadline, log_) {
   const PlanRequest& asked = request_.asked;
   report_.solver = asked.solver;
@@ -42,6 +54,7 @@ PlanReport PlanRun::run() {
       report_.message = "memory ran out in stage " + log_.stage();
     }
   }
+  if (!report_.optimal) report_.certified_by.clear();
   log_.leaveStage();
   report_.stages = log_.stages();
   report_.runtime_sec = log_.elapsedSec();
@@ -54,6 +67,7 @@ void PlanRun::runStages() {
   log_.enterStage("distances");
   if (!computeDistances()) return interrupt();
   setLowerBounds();
+  choose();
   std::optional<Decomposition> tree;
   if (request_.split.space) {
     if (!splitSpace()) return interrupt();
@@ -66,6 +80,7 @@ void PlanRun::runStages() {
   if (!plan) return;
   log_.enterStage("validate");
   accept(std::move(*plan));
+  searchOptimum();
   if (request_.asked.refine_sec > 0) refineWithin(request_.asked.refine_sec);
 }
 
@@ -106,6 +121,55 @@ void PlanRun::setLowerBounds() {
   report_.sum_of_costs_lower_bound = sumOfCostsLowerBound(instance_);
   report_.proved_lower_bound = static_cast<double>(lowerBound(instance_, report_.objective));
   log_.setLowerBound(report_.proved_lower_bound);
+}
+
+void PlanRun::choose() {
+  const bool open_split = request_.split.kind == SplitSpec::Kind::kAuto;
+  if (request_.solver != "auto" && !open_split) return;
+  log_.enterStage("choose");
+  features_ = measureFeatures(instance_);
+  AutoQuestion question;
+  question.features = *features_;
+  question.objective = report_.objective;
+  question.threads = report_.threads;
+  question.solver = request_.solver;
+  question.solvers = solvers_.names();
+  question.split = report_.split;
+  const AutoChoice choice = chooseMethod(question, CostModel::shipped());
+  if (request_.solver == "auto") {
+    request_.solver = choice.solver;
+    // An incomplete solver may search for long where there is nothing to find; others wait.
+    request_.solver_options.expansion_limit =
+        kLeastExpansions + kExpansionsAStep * features_->sum_bound;
+  }
+  if (open_split) request_.split = parseSplitSpec(choice.split);
+  choice_ = " (chosen: " + choice.reason + ")";
+}
+
+void PlanRun::searchOptimum() {
+  const bool wanted = report_.solver == "auto" && !report_.optimal && features_ &&
+                      features_->largest_group <= kSmallKnot;
+  const std::vector<std::string> known = solvers_.names();
+  if (!wanted || std::find(known.begin(), known.end(), "ecbs") == known.end()) return;
+  log_.enterStage("optimum");
+  SolverOptions options;
+  options.objective = report_.objective;
+  options.suboptimality = 1;
+  options.seed = report_.seed;
+  options.expansion_limit = kOptimumExpansions;
+  SolveResult result = solvers_.create("ecbs", options)->solve(instance_, deadline_);
+  const auto bound = static_cast<double>(result.lower_bound);
+  if (bound > report_.proved_lower_bound) {
+    report_.proved_lower_bound = bound;
+    report_.certified_by = "ecbs";
+    log_.setLowerBound(bound);
+  }
+  if (result.plan &&
+      costOf(*result.plan, report_.objective) < costOf(*report_.plan, report_.objective)) {
+    accept(std::move(*result.plan));
+  } else {
+    judge();
+  }
 }
 
 TimeSplitOptions PlanRun::timeSplitOptions() const {
@@ -160,9 +224,21 @@ LadderOutcome PlanRun::climb(const Decomposition& tree) {
   return outcome;
 }
 
+void PlanRun::callOthers(LadderOutcome& outcome) {
+  for (const std::string& solver : piece_solver_.rescuers()) {
+    if (!outcome.plans.empty() || outcome.last.termination != Termination::kNoPlanFound) return;
+    request_.solver = solver;
+    request_.split = SplitSpec{};
+    space_.reset();
+    request_.solver_options.expansion_limit = 0;
+    outcome = climb(*split());
+  }
+}
+
 std::optional<Plan> PlanRun::solve(const Decomposition& tree) {
   log_.enterStage("solve");
   LadderOutcome outcome = climb(tree);
+  if (report_.solver == "auto") callOthers(outcome);
   if (outcome.plans.empty()) {
     takeVerdict(outcome.last);
     return std::nullopt;
@@ -198,20 +274,22 @@ void PlanRun::accept(Plan plan) {
                            std::to_string(violations.size()) +
                            " violations; the first: " + violations.front().message);
   }
+  const double now_sec = log_.elapsedSec();
+  if (!report_.plan) report_.first_plan_sec = now_sec;
   report_.termination = Termination::kSolved;
   report_.makespan = makespanOf(plan);
   report_.sum_of_costs = sumOfCostsOf(plan);
-  const auto cost = static_cast<double>(costOf(plan, report_.objective));
-  report_.optimal = cost <= report_.proved_lower_bound;
-  if (!report_.optimal) {
-    report_.certified_by.clear();
-  } else if (report_.certified_by.empty()) {
-    report_.certified_by = "shortest_paths";
-  }
-  const double now_sec = log_.elapsedSec();
-  if (!report_.plan) report_.first_plan_sec = now_sec;
+  report_.plan = std::move(plan);
   report_.trace.push_back(
       {now_sec, report_.makespan, report_.sum_of_costs, report_.proved_lower_bound});
+  judge();
+  log_.setPlan(report_.makespan, report_.sum_of_costs);
+}
+
+void PlanRun::judge() {
+  const auto cost = static_cast<double>(costOf(*report_.plan, report_.objective));
+  report_.optimal = cost <= report_.proved_lower_bound;
+  if (report_.optimal && report_.certified_by.empty()) report_.certified_by = "shortest_paths";
   report_.message = "solved by " + request_.solver;
   if (report_.subproblems.size() > 1) {
     report_.message += " in " + std::to_string(report_.subproblems.size()) + " pieces";
@@ -221,8 +299,7 @@ void PlanRun::accept(Plan plan) {
         return row.solver != request_.solver && row.status == toString(Termination::kSolved);
       });
   if (helped > 0) report_.message += ", " + std::to_string(helped) + " of them by other solvers";
-  log_.setPlan(report_.makespan, report_.sum_of_costs);
-  report_.plan = std::move(plan);
+  report_.message += choice_;
 }
 
 void PlanRun::interrupt() {

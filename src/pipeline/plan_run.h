@@ -7,6 +7,7 @@
 #include "pipeline/piece_solver.h"
 #include "pipeline/run_log.h"
 #include "split_mapf/core/solvability.h"
+#include "split_mapf/pipeline/instance_features.h"
 #include "split_mapf/split/decomposition.h"
 #include "split_mapf/split/space_split.h"
 #include "split_mapf/split/time_split.h"
@@ -27,10 +28,16 @@ class PlanRun {
   bool reportUnsolvable();
   /// @pre no robot is cut off.
   void setLowerBounds();
+  /// Puts a solver and a split where `auto` was asked for. @pre no robot is cut off.
+  void choose();
   std::optional<Decomposition> split();
   std::optional<Plan> solve(const Decomposition& tree);
   void takeVerdict(const SolveResult& result);
   void accept(Plan plan);
+  /// Says how good the plan is. @pre there is one.
+  void judge();
+  /// A small knot that `auto` solved is worth a short search for the optimum, or its proof.
+  void searchOptimum();
   void refineWithin(double seconds);
   void interrupt();
   TimeSplitOptions timeSplitOptions() const;
@@ -38,6 +45,8 @@ class PlanRun {
   /// Cuts in space; false when the deadline expired.
   bool splitSpace();
   LadderOutcome climb(const Decomposition& tree);
+  /// Has the whole solved by other solvers while there is no plan and no proof.
+  void callOthers(LadderOutcome& outcome);
 
   const Instance& instance_;
   CheckedRequest request_;
@@ -45,7 +54,10 @@ class PlanRun {
   const Deadline& deadline_;
   RunLog log_;
   SolvabilityChecker checker_;
+  const SolverRegistry& solvers_;
   PieceSolver piece_solver_;
+  std::optional<InstanceFeatures> features_;  ///< set where `auto` had to choose
+  std::string choice_;                        ///< why, for people
   std::optional<SpaceSplit> space_;
   PlanReport report_;
 };

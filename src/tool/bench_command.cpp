@@ -3,6 +3,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "solver/available/available_solvers.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/io/map_file.h"
@@ -120,7 +121,7 @@ class Bench {
         out_(out),
         stop_(catchStopSignals()),
         executor_(sweep_.request.threads),
-        planner_(builtinSolvers(), executor_) {}
+        planner_(availableSolvers(), executor_) {}
 
   ExitCode run() {
     requireValid();

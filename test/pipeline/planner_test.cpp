@@ -50,12 +50,13 @@ TEST(Planner, ReportsTheWholeWay) {
   EXPECT_EQ(report.solver, "auto");
   EXPECT_EQ(report.split, "2t");
   EXPECT_EQ(report.subproblems.size(), 2U);
-  EXPECT_EQ(report.subproblems[0].solver, "ecbs");
+  EXPECT_EQ(report.subproblems[0].solver, "conflict_optimizer");
+  EXPECT_NE(report.message.find("chosen"), std::string::npos) << report.message;
   EXPECT_EQ(report.trace.size(), 1U);
   std::vector<std::string> stages;
   for (const auto& stage : report.stages) stages.push_back(stage.first);
-  EXPECT_EQ(stages, (std::vector<std::string>{"check", "distances", "split", "solve", "stitch",
-                                              "compact", "replan", "validate"}));
+  EXPECT_EQ(stages, (std::vector<std::string>{"check", "distances", "choose", "split", "solve",
+                                              "stitch", "compact", "replan", "validate"}));
 }
 
 TEST(Planner, TheSamePlanAtAnyNumberOfThreads) {
@@ -107,6 +108,46 @@ TEST(Planner, RefusesWhatItCannotDoBeforeAnyWork) {
   EXPECT_THROW(planner.requireValid(request), OptionError);
   request.split_options = {"variant=makespan", "variant=makespan"};
   EXPECT_THROW(planner.requireValid(request), OptionError);
+}
+
+TEST(Planner, AutoCallsOthersWhereItsChoiceFails) {
+  SolverRegistry registry;
+  registry.add(EcbsSolver::info());
+  registry.add(test::fakeSolver("conflict_optimizer", [](const Instance&, const Deadline&) {
+    return SolveResult();  // no plan, no proof
+  }));
+  Executor executor(1);
+  const Instance instance = crossing();
+  const Planner planner(registry, executor);
+  const PlanReport report = planner.plan(instance, requestFor("auto", "none"), Deadline());
+  ASSERT_TRUE(report.plan) << report.message;
+  EXPECT_TRUE(validate(instance, *report.plan).empty());
+  EXPECT_EQ(report.subproblems.back().solver, "ecbs");
+  EXPECT_EQ(
+      planner.plan(instance, requestFor("conflict_optimizer", "none"), Deadline()).termination,
+      Termination::kNoPlanFound)
+      << "a solver that was asked for stands alone";
+}
+
+TEST(Planner, AutoFindsTheOptimumOfASmallKnot) {
+  // Two robots change places in a corridor with a siding: 4 and 3 steps are the least.
+  Executor executor(1);
+  const Instance instance = test::instanceFromAscii({"a.b", "#.#"}, {"b.a", "#.#"});
+  PlanRequest request = requestFor("auto", "auto");
+  request.objective = Objective::kSumOfCosts;
+  const PlanReport report = Planner(builtinSolvers(), executor).plan(instance, request, Deadline());
+  ASSERT_TRUE(report.plan);
+  EXPECT_EQ(report.sum_of_costs, 7U);
+  EXPECT_TRUE(report.optimal);
+  EXPECT_EQ(report.certified_by, "ecbs");
+  EXPECT_EQ(report.proved_lower_bound, 7);
+}
+
+TEST(Planner, RefusesOptionsOfASolverThatIsNotNamed) {
+  Executor executor(1);
+  PlanRequest request = requestFor("auto", "none");
+  request.solver_options = {"order=random"};
+  EXPECT_THROW(Planner(builtinSolvers(), executor).requireValid(request), OptionError);
 }
 
 TEST(Planner, RefinesWithinItsShareOfTheTime) {

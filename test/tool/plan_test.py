@@ -13,6 +13,19 @@ FIELDS = ["status", "message", "solver", "split", "objective", "seed", "threads"
 
 
 class PlanTest(CommandTest):
+    def test_refinement(self):
+        self.generate("g", "--width", 16, "--height", 16, "--density", 0.1, "--agents", 60)
+        first = self.plan(0, "g", "--objective", "sum_of_costs")
+        refined = self.plan(0, "g", "--objective", "sum_of_costs", "--refine", 1)
+        self.assertLess(refined["sum_of_costs"], first["sum_of_costs"])
+        self.assertIn("refine", refined["stages"])
+        costs = [row[2] for row in refined["trace"]]
+        self.assertEqual(costs[0], first["sum_of_costs"])
+        self.assertEqual(costs, sorted(costs, reverse=True))
+        self.assertEqual(costs[-1], refined["sum_of_costs"])
+        self.assertLess(refined["runtime_s"], 10)
+        self.expect(0, "validate", *self.files("g"), "--plan", "g.json")
+
     def test_solved(self):
         # Two robots change places in a corridor with a siding: 4 and 3 steps.
         self.write_problem("p", ["...", "@.@"], [((0, 0), (2, 0)), ((2, 0), (0, 0))])

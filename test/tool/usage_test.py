@@ -52,8 +52,7 @@ class BadUsageTest(CommandTest):
 
     def test_commands(self):
         self.expect_refusal(["no command", "plan, validate"])
-        # Commands that are not built yet are unknown, not accepted.
-        for name in ["bench", "plans", "help", "--frobnicate", ""]:
+        for name in ["plans", "help", "--frobnicate", ""]:
             self.expect_refusal([f"'{name}'", "plan, validate"], name)
 
     def test_unknown_options(self):
@@ -107,8 +106,8 @@ class BadUsageTest(CommandTest):
         self.refuse_plan("--progress", "--progress", "--quiet")
         self.refuse_plan("none", "--split", "none", "--split-option", "variant=makespan")
 
-    def test_what_is_not_built_yet(self):
-        self.refuse_plan("efine", "--refine", "5")
+    def test_options_of_a_solver_that_is_not_named(self):
+        self.refuse_plan("auto", "--solver-option", "order=random")
 
     def test_output_that_cannot_be_written_is_refused_before_planning(self):
         self.expect_refusal("no/such/out.json", "plan", *self.files("p"),

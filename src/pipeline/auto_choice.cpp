@@ -1,0 +1,76 @@
+#include "pipeline/auto_choice.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+#include "split_mapf/split/split_spec.h"
+
+namespace split_mapf {
+namespace {
+
+// A plan may be expected to cost this share of the lower bound more than the best.
+constexpr double kTolerance = 0.02;
+// Of two processors a split keeps so much busy.
+constexpr double kParallelShare = 0.8;
+
+std::string inSeconds(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g s", seconds);
+  return text;
+}
+
+double wallSeconds(const MethodEstimate& method, std::uint32_t threads) {
+  const auto pieces = std::max<std::size_t>(1, parseSplitSpec(method.split).time_ratios.size());
+  const auto workers = static_cast<double>(std::min<std::size_t>(pieces, threads));
+  return method.seconds / (1 + kParallelShare * (workers - 1));
+}
+
+bool has(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Those that the question leaves open. A split that was asked for says nothing of the solver: the
+/// whole instance stands for its pieces.
+std::vector<MethodEstimate> candidates(const AutoQuestion& question, const CostModel& model) {
+  std::vector<MethodEstimate> result;
+  for (MethodEstimate& method : model.estimate(question.features, question.objective)) {
+    const bool solver_fits = question.solver == "auto" ? has(question.solvers, method.solver)
+                                                       : question.solver == method.solver;
+    const bool split_fits = question.split == "auto" || method.split == "none";
+    if (!solver_fits || !split_fits) continue;
+    method.seconds = wallSeconds(method, question.threads);
+    result.push_back(std::move(method));
+  }
+  return result;
+}
+
+}  // namespace
+
+AutoChoice chooseMethod(const AutoQuestion& question, const CostModel& model) {
+  std::vector<MethodEstimate> methods = candidates(question, model);
+  if (methods.empty()) {
+    return {question.solver == "auto" ? question.solvers.front() : question.solver,
+            question.split == "auto" ? "none" : question.split, "nothing is known of it"};
+  }
+  const auto best = std::min_element(
+      methods.begin(), methods.end(),
+      [](const MethodEstimate& a, const MethodEstimate& b) { return a.excess < b.excess; });
+  const double worst_allowed = best->excess + kTolerance;
+  std::stable_sort(methods.begin(), methods.end(),
+                   [&](const MethodEstimate& a, const MethodEstimate& b) {
+                     const bool a_good = a.excess <= worst_allowed;
+                     const bool b_good = b.excess <= worst_allowed;
+                     return a_good != b_good ? a_good : a.seconds < b.seconds;
+                   });
+  const MethodEstimate& first = methods.front();
+  AutoChoice choice{first.solver, question.split == "auto" ? first.split : question.split,
+                    inSeconds(first.seconds) + " expected"};
+  if (methods.size() > 1) {
+    choice.reason += ", " + inSeconds(methods[1].seconds) + " by " + methods[1].solver;
+    if (methods[1].split != "none") choice.reason += " in " + methods[1].split;
+  }
+  return choice;
+}
+
+}  // namespace split_mapf

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/cost_model.h"
+
+namespace split_mapf {
+
+/// What `auto` leaves open, and on what.
+struct AutoQuestion {
+  InstanceFeatures features;
+  Objective objective = Objective::kMakespan;
+  std::uint32_t threads = 1;
+  std::string solver;                ///< "auto", or the solver that was asked for
+  std::vector<std::string> solvers;  ///< that there are
+  std::string split;                 ///< "auto", or the split that was asked for
+};
+
+/// What `auto` stands for on this instance.
+struct AutoChoice {
+  std::string solver;
+  std::string split;
+  std::string reason;  ///< half a sentence for people
+};
+
+/// Chooses the method that is expected to give its first plan soonest, among those whose plans are
+/// expected to be about as good as the best. Deterministic.
+AutoChoice chooseMethod(const AutoQuestion& question, const CostModel& model);
+
+}  // namespace split_mapf

@@ -1,0 +1,98 @@
+#include "pipeline/auto_choice.h"
+
+#include <gtest/gtest.h>
+
+#include "split_mapf/core/error.h"
+
+namespace split_mapf {
+namespace {
+
+// Times grow with the number of robots, but for `sturdy`; `rough` makes worse plans.
+constexpr const char* kModel = R"(methods:
+  - {solver: quick, split: none, objective: makespan, log_seconds: [-9, 2, 0, 0, 0, 0],
+     log_excess: [-9, 0, 0, 0, 0, 0]}
+  - {solver: quick, split: 4t, objective: makespan, log_seconds: [-8, 1.8, 0, 0, 0, 0],
+     log_excess: [-9, 0, 0, 0, 0, 0]}
+  - {solver: sturdy, split: none, objective: makespan, log_seconds: [0, 0, 0, 0, 0, 0],
+     log_excess: [-9, 0, 0, 0, 0, 0]}
+  - {solver: rough, split: none, objective: makespan, log_seconds: [-20, 0, 0, 0, 0, 0],
+     log_excess: [0, 0, 0, 0, 0, 0]}
+)";
+
+AutoQuestion question(std::uint32_t robots, std::uint32_t threads) {
+  AutoQuestion question;
+  question.features.robots = robots;
+  question.features.cells = 1000;
+  question.features.largest_group = 1;
+  question.threads = threads;
+  question.solver = "auto";
+  question.solvers = {"quick", "rough", "sturdy"};
+  question.split = "auto";
+  return question;
+}
+
+TEST(AutoChoice, TheSoonestOfTheGoodOnes) {
+  const CostModel model(kModel);
+  EXPECT_EQ(chooseMethod(question(10, 1), model).solver, "quick");
+  EXPECT_EQ(chooseMethod(question(10, 1), model).split, "none");
+  EXPECT_EQ(chooseMethod(question(1000, 1), model).solver, "sturdy");
+}
+
+TEST(AutoChoice, MoreProcessorsMakeASplitPay) {
+  const CostModel model(kModel);
+  AutoQuestion asked = question(50, 1);
+  asked.solver = "quick";
+  EXPECT_EQ(chooseMethod(asked, model).split, "none");
+  asked.threads = 4;
+  EXPECT_EQ(chooseMethod(asked, model).split, "4t");
+}
+
+TEST(AutoChoice, KeepsWhatWasAskedFor) {
+  const CostModel model(kModel);
+  AutoQuestion asked = question(1000, 2);
+  asked.solver = "quick";
+  asked.split = "7t";
+  const AutoChoice choice = chooseMethod(asked, model);
+  EXPECT_EQ(choice.solver, "quick");
+  EXPECT_EQ(choice.split, "7t");
+  asked.solver = "unheard_of";
+  asked.split = "auto";
+  EXPECT_EQ(chooseMethod(asked, model).solver, "unheard_of");
+  EXPECT_EQ(chooseMethod(asked, model).split, "none");
+}
+
+TEST(AutoChoice, NeverASolverThatIsNotThere) {
+  const CostModel model(kModel);
+  AutoQuestion asked = question(10, 1);
+  asked.solvers = {"sturdy"};
+  EXPECT_EQ(chooseMethod(asked, model).solver, "sturdy");
+}
+
+TEST(CostModel, TheShippedOneKnowsTheSolversAndBothObjectives) {
+  InstanceFeatures features;
+  features.robots = 100;
+  features.cells = 1000;
+  features.makespan_bound = 50;
+  features.sum_bound = 2000;
+  features.conflicting = 200;
+  features.largest_group = 90;
+  for (const Objective objective : {Objective::kMakespan, Objective::kSumOfCosts}) {
+    const auto estimates = CostModel::shipped().estimate(features, objective);
+    EXPECT_GE(estimates.size(), 4U);
+    for (const MethodEstimate& method : estimates) {
+      EXPECT_GT(method.seconds, 1e-5) << method.solver;
+      EXPECT_LT(method.seconds, 60) << method.solver;
+    }
+  }
+}
+
+TEST(CostModel, SaysWhatIsWrongWithItsData) {
+  EXPECT_THROW(CostModel("methods: []"), InputError);
+  EXPECT_THROW(CostModel("{"), InputError);
+  EXPECT_THROW(CostModel("methods: [{solver: a, split: none, objective: makespan,"
+                         " log_seconds: [1], log_excess: [1]}]"),
+               InputError);
+}
+
+}  // namespace
+}  // namespace split_mapf
