@@ -95,7 +95,7 @@ void ArcFlowSearch::buildRobot(std::uint32_t robot) {
       model_.addRow(RowKind::kEqual, start ? -1 : 0, {});  // what comes in less what goes out
     }
   }
-  const auto rowOf = [&](std::uint32_t place, std::uint32_t t) {
+  const auto row_of = [&](std::uint32_t place, std::uint32_t t) {
     return first_row[place] + static_cast<int>(t - window.first(place));
   };
   for (std::uint32_t place = 0; place < window.size() && !stopped(); ++place) {
@@ -106,7 +106,7 @@ void ArcFlowSearch::buildRobot(std::uint32_t robot) {
       for (std::uint32_t t = window.first(from); t <= end && window.last(place) > 0; ++t) {
         if (t + 1 < window.first(place)) continue;
         addVariable(robot, false, {space_.into(t, window.vertex(place)) + slot}, 0,
-                    {{rowOf(from, t), rowOf(place, t + 1)}, {-1, 1}});
+                    {{row_of(from, t), row_of(place, t + 1)}, {-1, 1}});
       }
     }
   }
@@ -117,7 +117,7 @@ void ArcFlowSearch::buildRobot(std::uint32_t robot) {
       waits.push_back(space_.into(s, window.vertex(goal)));
     }
     const double cost = objective_ == Objective::kMakespan ? 0.0 : t;
-    addVariable(robot, true, std::move(waits), cost, {{rowOf(goal, t)}, {-1}});
+    addVariable(robot, true, std::move(waits), cost, {{row_of(goal, t)}, {-1}});
   }
 }
 

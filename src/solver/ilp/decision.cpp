@@ -83,7 +83,7 @@ std::vector<Fork> forksBy(const std::vector<UsedPath>& used, std::size_t most, W
 
 void apply(const Decision& decision, const Instance& instance, std::vector<RobotRules>& rules) {
   RobotRules& own = rules[decision.robot];
-  const auto banOthers = [&](const RobotRules::Ban& ban) {
+  const auto ban_others = [&](const RobotRules::Ban& ban) {
     for (std::uint32_t i = 0; i < rules.size(); ++i) {
       if (i != decision.robot) rules[i].bans.push_back(ban);
     }
@@ -93,14 +93,14 @@ void apply(const Decision& decision, const Instance& instance, std::vector<Robot
       return;
     case Decision::Kind::kAt:
       own.posts.push_back({decision.vertex, decision.step});
-      banOthers({decision.vertex, decision.step, decision.step + 1});
+      ban_others({decision.vertex, decision.step, decision.step + 1});
       return;
     case Decision::Kind::kNotAt:
       own.bans.push_back({decision.vertex, decision.step, decision.step + 1});
       return;
     case Decision::Kind::kArriveBy:
       own.latest_arrival = std::min(own.latest_arrival, decision.step);
-      banOthers({instance.goal(decision.robot), decision.step, RobotRules::kNever});
+      ban_others({instance.goal(decision.robot), decision.step, RobotRules::kNever});
       return;
     case Decision::Kind::kArriveAfter:
       own.earliest_arrival = std::max(own.earliest_arrival, decision.step + 1);

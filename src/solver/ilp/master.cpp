@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kUsed = 1e-7;
 // Solves after which an idle row or column is dropped.
-constexpr std::uint32_t kRowPatience = 30;
-constexpr std::uint32_t kColumnPatience = 60;
+constexpr std::uint32_t kRowPatience = 12;
+constexpr std::uint32_t kColumnPatience = 30;
 // Rather a few too many than to price and to separate the same again and again.
 constexpr std::size_t kFewest = 200;
 
