@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 #include <vector>
@@ -10,6 +11,9 @@
 
 namespace split_mapf {
 namespace {
+
+// How deep a buffer may reach into a region, of the side of a square as large as the region.
+constexpr double kDeepestShare = 0.125;
 
 /// Two neighbouring regions, the lower number first.
 using Border = std::pair<std::uint32_t, std::uint32_t>;
@@ -126,10 +130,9 @@ Partition partitionDynamic(const Instance& instance, std::uint32_t regions, Buff
   narrowBorders(instance.graph(), units, base);
   Buffers buffers(instance.grid(), units, base, buffer);
   // Never so deep that little is left of a region between its borders.
-  std::uint32_t deepest = std::max(1U, buffer.across / 2);
-  for (std::uint64_t side = 2 * deepest; side * side * 16 * regions < instance.graph().size();) {
-    side = 2 * ++deepest;
-  }
+  const double side = std::sqrt(static_cast<double>(instance.graph().size()) / regions);
+  const std::uint32_t deepest =
+      std::max({1U, buffer.across / 2, static_cast<std::uint32_t>(side * kDeepestShare)});
   buffers.grow(countCrossings(instance, base), deepest + 1);
   Partition partition;
   partition.kind = "dynamic";

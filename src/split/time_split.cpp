@@ -94,7 +94,10 @@ Decomposition makePiece(const Instance& whole, const std::vector<Vertex>& from,
   std::vector<std::uint32_t> everyone(whole.robots());
   std::iota(everyone.begin(), everyone.end(), 0U);
   for (std::uint32_t i = 0; i < whole.robots(); ++i) {
-    if (to[i] == whole.goal(i)) piece.adoptDistances(i, whole.shareDistances(i));
+    // Pieces are solved in threads of their own.
+    if (to[i] == whole.goal(i) && whole.distances(i).isShareable()) {
+      piece.adoptDistances(i, whole.shareDistances(i));
+    }
   }
   return Decomposition::leaf(std::move(piece), std::move(everyone),
                              static_cast<std::uint32_t>(number));

@@ -168,6 +168,23 @@ void expectChain(const Instance& instance, const Decomposition& tree) {
   EXPECT_EQ(at, instance.goals());
 }
 
+TEST(TimeSplit, PiecesShareNoTableThatGrows) {
+  // Robot 0 is home before the last piece begins, so its goal is that of several pieces.
+  const auto grid = test::gridFromAscii({".........", ".........", "........."});
+  const Instance whole = Instance::fromVertices(grid, {0, 9}, {1, 17}, DistanceExtent::kOnDemand);
+  TimeSplitOptions options;
+  options.ratios = {0.25, 0.25, 0.5};
+  options.variant = TimeSplitVariant::kSumOfCosts;
+  const auto tree = splitTime(whole, options, Deadline());
+  ASSERT_TRUE(tree);
+  std::set<const DistanceTable*> tables;
+  for (const Decomposition* leaf : leavesOf(*tree)) {
+    EXPECT_EQ(leaf->instance->goal(0), 1U);
+    EXPECT_TRUE(tables.insert(&leaf->instance->distances(0)).second) << "read by two threads";
+  }
+  EXPECT_EQ(tables.size(), 3U);
+}
+
 TEST(TimeSplitMatching, WastesNoStepEither) {
   for (std::uint32_t pieces = 2; pieces <= 4; ++pieces) {
     const Instance instance = randomInstance(32, 0.05, 150, pieces);

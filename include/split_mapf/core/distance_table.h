@@ -35,6 +35,8 @@ class DistanceTable {
     return d != kNarrowUnknown ? d : search(v);
   }
   bool isWide() const { return !wide_.empty(); }
+  /// Whether several threads may read it.
+  bool isShareable() const { return graph_ == nullptr; }
   /// The entries of a table of kAll that takes 16 bits, by vertex, 0xffff where there is no way;
   /// null for any other table. For loops that read nothing but distances.
   const std::uint16_t* narrowEntries() const {
