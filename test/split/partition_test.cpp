@@ -113,6 +113,7 @@ TEST(BalancedRegions, AreBalancedAndCutNoCorridor) {
     for (const std::uint32_t region : ownership) ++cells[region];
     // Small separate parts of the map have regions of their own.
     std::vector<std::uint32_t> sizes;
+    sizes.reserve(cells.size());
     for (const auto& [region, count] : cells) sizes.push_back(count);
     std::sort(sizes.rbegin(), sizes.rend());
     ASSERT_GE(sizes.size(), 4U);
