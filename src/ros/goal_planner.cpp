@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "split_mapf/core/error.h"
+#include "split_mapf/ros/layout_messages.h"
 #include "split_mapf/ros/plan_messages.h"
 
 namespace split_mapf {
@@ -69,7 +70,9 @@ PreparedGoal GoalPlanner::prepare(const boost::shared_ptr<const PlanPathsGoal>& 
 
 GoalAnswer GoalPlanner::plan(const PreparedGoal& goal, const Deadline& deadline,
                              const ProgressCallback& progress) const {
-  const PlanReport report = planner_.plan(goal.instance, goal.options.plan, deadline, progress);
+  // Whether a space split fits is known only with the map.
+  const PlanReport report = withGoalErrors(
+      [&] { return planner_.plan(goal.instance, goal.options.plan, deadline, progress); });
   GoalAnswer answer;
   answer.outcome = outcomeOf(report.termination);
   answer.result.message = sentenceOf(report);
@@ -77,6 +80,7 @@ GoalAnswer GoalPlanner::plan(const PreparedGoal& goal, const Deadline& deadline,
   if (report.plan) {
     answer.result.plan = toMessage(report, goal.robots.ids, goal.grid,
                                    goal.options.step_duration_sec, ros::Time::now());
+    answer.layout = layoutOf(report, goal.grid, answer.result.plan.header.stamp);
     if (goal.options.fill_poses) fillPoses(answer.result.plan);
     if (deadline.stopRequested()) {
       answer.outcome = Outcome::kCancelled;

@@ -15,11 +15,14 @@ PlanPublisher::PlanPublisher(const ros::NodeHandle& node, ros::NodeHandle privat
     : node_(node),
       publish_paths_(publish_paths),
       plan_(private_node.advertise<MultiRobotPlan>("plan", 1, true)),
+      layout_(private_node.advertise<PlanLayout>("layout", 1, true)),
       grid_(private_node.advertise<nav_msgs::OccupancyGrid>("planning_grid", 1, true)) {}
 
-void PlanPublisher::publish(const MultiRobotPlan& plan, const PlanningGrid& grid) {
+void PlanPublisher::publish(const MultiRobotPlan& plan, const PlanLayout& layout,
+                            const PlanningGrid& grid) {
   const std::lock_guard<std::mutex> lock(mutex_);
   grid_.publish(toMessage(grid, plan.header.stamp));
+  layout_.publish(layout);
   plan_.publish(plan);
   if (publish_paths_) publishPaths(plan);
 }

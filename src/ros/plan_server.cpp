@@ -155,7 +155,9 @@ GoalAnswer PlanServer::planInTurn(ActiveGoal& goal, const PreparedGoal& prepared
   goal.accept();
   GoalAnswer answer = planner_.plan(
       prepared, deadline, [&goal](const PlanProgress& progress) { goal.update(progress); });
-  if (!answer.result.plan.paths.empty()) publisher_.publish(answer.result.plan, prepared.grid);
+  if (!answer.result.plan.paths.empty()) {
+    publisher_.publish(answer.result.plan, answer.layout, prepared.grid);
+  }
   return answer;
 }
 

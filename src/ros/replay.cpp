@@ -8,6 +8,7 @@
 #include <ros/console.h>
 
 #include "split_mapf/core/error.h"
+#include "split_mapf/ros/layout_messages.h"
 #include "split_mapf/ros/parameter_reader.h"
 
 namespace split_mapf {
@@ -60,6 +61,10 @@ Replay::Replay(ros::NodeHandle node, ros::NodeHandle private_node, const ReplayO
   timeline_.setSpeed(options.speed);
   timeline_.setLoop(options.loop);
   publisher_ = private_node.advertise<visualization_msgs::MarkerArray>("markers", 1, true);
+  layout_publisher_ =
+      private_node.advertise<visualization_msgs::MarkerArray>("layout_markers", 1, true);
+  const boost::function<void(const PlanLayoutConstPtr&)> on_layout =
+      [this](const PlanLayoutConstPtr& layout) { takeLayout(*layout); };
   const boost::function<void(const MultiRobotPlanConstPtr&)> on_plan =
       [this](const MultiRobotPlanConstPtr& plan) { takePlan(*plan); };
   const boost::function<void(const nav_msgs::OccupancyGridConstPtr&)> on_grid =
@@ -70,6 +75,7 @@ Replay::Replay(ros::NodeHandle node, ros::NodeHandle private_node, const ReplayO
       };
   plan_subscriber_ = node.subscribe<MultiRobotPlan>("plan", 1, on_plan);
   grid_subscriber_ = node.subscribe<nav_msgs::OccupancyGrid>("planning_grid", 1, on_grid);
+  layout_subscriber_ = node.subscribe<PlanLayout>("layout", 1, on_layout);
   control_ = private_node.advertiseService("control", on_control);
   timer_ = node.createWallTimer(ros::WallDuration(1 / options.rate_hz),
                                 [this](const ros::WallTimerEvent& /*event*/) { tick(); });
@@ -90,6 +96,14 @@ void Replay::takePlan(const MultiRobotPlan& plan) {
   shown_position_.reset();
   ROS_INFO("replaying %zu robots, %.0f steps of %.2f s, at %.1f times their pace",
            plan.paths.size(), markers_->steps(), plan.step_duration, timeline_.speed());
+}
+
+void Replay::takeLayout(const PlanLayout& layout) {
+  try {
+    layout_publisher_.publish(layoutMarkers(layout));
+  } catch (const std::exception& error) {
+    ROS_ERROR("a layout that cannot be shown: %s", error.what());
+  }
 }
 
 void Replay::takeGrid(const nav_msgs::OccupancyGrid& grid) {

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include <split_mapf/PlanLayout.h>
 #include <split_mapf/PlanPathsAction.h>
 
 #include "split_mapf/core/deadline.h"
@@ -28,6 +29,7 @@ struct PreparedGoal {
 struct GoalAnswer {
   Outcome outcome = Outcome::kInternalError;
   PlanPathsResult result;
+  PlanLayout layout;  ///< of the result's plan
 };
 
 /// From a goal message to a result message, without the action protocol. Thread-safe.
@@ -46,6 +48,7 @@ class GoalPlanner {
   PreparedGoal prepare(const boost::shared_ptr<const PlanPathsGoal>& goal,
                        const GoalOptions& options, const Deadline& deadline) const;
   /// Plans. A cancelled goal that has a plan carries it, with outcome CANCELLED.
+  /// @throws GoalError INVALID_SPLIT for a space split that does not fit the map.
   GoalAnswer plan(const PreparedGoal& goal, const Deadline& deadline,
                   const ProgressCallback& progress) const;
 

@@ -7,20 +7,21 @@
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <split_mapf/MultiRobotPlan.h>
+#include <split_mapf/PlanLayout.h>
 
 #include "split_mapf/ros/planning_grid.h"
 
 namespace split_mapf {
 
-/// Publishes the last plan found, the grid it was planned on and, if wanted, a path a robot, all
-/// latched. Thread-safe.
+/// Publishes the last plan found, the layout of its space split, the grid it was planned on and, if
+/// wanted, a path a robot, all latched. Thread-safe.
 class PlanPublisher {
  public:
-  /// `~plan` and `~planning_grid` in `private_node`, `<name>/path` in `node`.
+  /// `~plan`, `~layout` and `~planning_grid` in `private_node`, `<name>/path` in `node`.
   PlanPublisher(const ros::NodeHandle& node, ros::NodeHandle private_node, bool publish_paths);
 
   /// @pre with publish_paths the robots' ROS names are distinct.
-  void publish(const MultiRobotPlan& plan, const PlanningGrid& grid);
+  void publish(const MultiRobotPlan& plan, const PlanLayout& layout, const PlanningGrid& grid);
 
  private:
   void publishPaths(const MultiRobotPlan& plan);
@@ -29,6 +30,7 @@ class PlanPublisher {
   bool publish_paths_;
   std::mutex mutex_;
   ros::Publisher plan_;
+  ros::Publisher layout_;
   ros::Publisher grid_;
   std::map<std::string, ros::Publisher> paths_;  ///< by the robot's ROS name
 };

@@ -10,6 +10,7 @@
 #include <ros/subscriber.h>
 #include <ros/wall_timer.h>
 #include <split_mapf/MultiRobotPlan.h>
+#include <split_mapf/PlanLayout.h>
 #include <split_mapf/ReplayControl.h>
 
 #include "split_mapf/ros/markers.h"
@@ -29,14 +30,16 @@ struct ReplayOptions {
 /// @throws OptionError naming the parameter.
 ReplayOptions readReplayOptions(const XmlRpc::XmlRpcValue& parameters);
 
-/// Shows plans as moving markers: subscribes `plan` and `planning_grid`, publishes ~markers, serves
-/// ~control. A new plan starts at once, at its step 0. Paced by ROS time. Thread-safe.
+/// Shows plans as moving markers: subscribes `plan`, `planning_grid` and `layout`, publishes
+/// ~markers and ~layout_markers (latched), serves ~control. A new plan starts at once, at its step
+/// 0. Paced by ROS time. Thread-safe.
 class Replay {
  public:
   Replay(ros::NodeHandle node, ros::NodeHandle private_node, const ReplayOptions& options);
 
  private:
   void takePlan(const MultiRobotPlan& plan);
+  void takeLayout(const PlanLayout& layout);
   void takeGrid(const nav_msgs::OccupancyGrid& grid);
   bool control(ReplayControl::Request& request, ReplayControl::Response& response);
   /// Carries a command out and says what was done. @throws InputError.
@@ -58,8 +61,10 @@ class Replay {
   std::size_t shown_labels_ = 0;
 
   ros::Publisher publisher_;
+  ros::Publisher layout_publisher_;
   ros::Subscriber plan_subscriber_;
   ros::Subscriber grid_subscriber_;
+  ros::Subscriber layout_subscriber_;
   ros::ServiceServer control_;
   ros::WallTimer timer_;
 };
