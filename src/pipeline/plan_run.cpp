@@ -249,6 +249,7 @@ std::optional<Plan> PlanRun::solve(const Decomposition& tree) {
     report_.proved_lower_bound =
         std::max(report_.proved_lower_bound, static_cast<double>(outcome.last.lower_bound));
     report_.certified_by = outcome.last.certified_by;
+    solver_said_ = outcome.last.message;
   } else if (request_.split_options.compaction) {
     log_.enterStage("compact");
     plan = compact(plan, instance_.graph().size());
@@ -299,6 +300,7 @@ void PlanRun::judge() {
         return row.solver != request_.solver && row.status == toString(Termination::kSolved);
       });
   if (helped > 0) report_.message += ", " + std::to_string(helped) + " of them by other solvers";
+  if (!solver_said_.empty()) report_.message += "; " + solver_said_;
   report_.message += choice_;
 }
 
