@@ -2,32 +2,59 @@
 
 #include <cmath>
 #include <memory>
+#include <string>
 
 #include "solver/ecbs/ecbs_search.h"
+#include "solver/ecbs/settings.h"
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/option_values.h"
 
 namespace split_mapf {
 
-EcbsSolver::EcbsSolver(const SolverOptions& options)
-    : objective_(options.objective),
-      suboptimality_(options.suboptimality),
-      expansion_limit_(options.expansion_limit) {
-  if (!std::isfinite(suboptimality_) || suboptimality_ < 1) {
-    throw OptionError("suboptimality " + std::to_string(suboptimality_) +
+EcbsSolver::EcbsSolver(const SolverOptions& options) : settings_(new EcbsSettings) {
+  EcbsSettings& settings = *settings_;
+  settings.objective = options.objective;
+  settings.suboptimality = options.suboptimality;
+  settings.seed = options.seed;
+  settings.expansion_limit = options.expansion_limit;
+  if (!std::isfinite(options.suboptimality) || options.suboptimality < 1) {
+    throw OptionError("suboptimality " + std::to_string(options.suboptimality) +
                       " is out of range: a number of at least 1 is expected");
   }
+  const OptionValues values(options.values);
+  settings.order = values.choice("order", settings.order,
+                                 {"shortest_first", "longest_first", "random", "given"});
+  settings.detour = values.count("detour", settings.detour);
+  settings.bypass = values.flag("bypass", settings.bypass);
+  settings.targets = values.flag("targets", settings.targets);
+  settings.raise_every = values.count("raise_every", settings.raise_every);
+  settings.polish = values.count("polish", settings.polish);
 }
 
+EcbsSolver::~EcbsSolver() = default;
+
 SolverInfo EcbsSolver::info() {
-  return {"ecbs",
-          "enhanced conflict-based search: bounded-suboptimal, complete on solvable instances",
-          {},
-          [](const SolverOptions& options) { return std::make_unique<EcbsSolver>(options); }};
+  const EcbsSettings defaults;
+  const auto flag = [](bool value) { return std::string(value ? "true" : "false"); };
+  return {
+      "ecbs",
+      "enhanced conflict-based search: bounded-suboptimal, complete on solvable instances",
+      {{"order", defaults.order,
+        "robots in the first plan: shortest_first, longest_first, random or given"},
+       {"detour", std::to_string(defaults.detour),
+        "steps a robot may go round before more weighs like collisions"},
+       {"bypass", flag(defaults.bypass), "replace a path instead of branching where that helps"},
+       {"targets", flag(defaults.targets), "branch on arrival times at goals that are run into"},
+       {"raise_every", std::to_string(defaults.raise_every),
+        "every so many nodes the one of the least lower bound; 0: never"},
+       {"polish", std::to_string(defaults.polish),
+        "passes over the plan found that give robots earlier paths"}},
+      [](const SolverOptions& options) { return std::make_unique<EcbsSolver>(options); }};
 }
 
 SolveResult EcbsSolver::solve(const Instance& instance, const Deadline& deadline) const {
   if (const auto robot = findCutOffRobot(instance)) return cutOffResult(*robot);
-  return EcbsSearch(instance, objective_, suboptimality_, expansion_limit_, deadline).run();
+  return EcbsSearch(instance, *settings_, deadline).run();
 }
 
 }  // namespace split_mapf

@@ -1,11 +1,13 @@
 #pragma once
 
-#include <cstdint>
+#include <memory>
 
 #include "split_mapf/solver/registry.h"
 #include "split_mapf/solver/solver.h"
 
 namespace split_mapf {
+
+struct EcbsSettings;
 
 /// Enhanced conflict-based search: a plan whose cost is at most w times a proved lower bound, for
 /// either objective; optimal at w = 1.
@@ -21,14 +23,13 @@ class EcbsSolver : public Solver {
  public:
   /// @throws OptionError for a suboptimality below 1 or an option value out of range.
   explicit EcbsSolver(const SolverOptions& options);
+  ~EcbsSolver() override;
   /// Memory: one path and the list of conflicting pairs a node of the constraint tree.
   SolveResult solve(const Instance& instance, const Deadline& deadline) const override;
   static SolverInfo info();
 
  private:
-  Objective objective_;
-  double suboptimality_;
-  std::uint64_t expansion_limit_;
+  std::unique_ptr<EcbsSettings> settings_;
 };
 
 }  // namespace split_mapf

@@ -19,9 +19,9 @@ void ConflictFinder::find(std::uint32_t robot, const Path& path, const PathTable
       if (stay.end <= begin) continue;
       const std::uint32_t step = std::max(begin, stay.begin);
       Conflict conflict{Conflict::Kind::kVertex, robot, stay.robot, step, v, kNoVertex};
-      if (stay.end == kForever) {
+      if (targets_ && stay.end == kForever) {
         conflict.kind = Conflict::Kind::kTarget;
-      } else if (end == kForever) {
+      } else if (targets_ && end == kForever) {
         conflict = {Conflict::Kind::kTarget, stay.robot, robot, step, v, kNoVertex};
       }
       note(conflict, stay.robot, first, out);

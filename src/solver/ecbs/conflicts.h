@@ -26,7 +26,9 @@ struct Conflict {
 /// Finds the robots that a path runs into. Keeps its memory; not thread-safe.
 class ConflictFinder {
  public:
-  explicit ConflictFinder(std::uint32_t robots) : slot_(robots, kNoSlot) {}
+  /// @param targets  whether to tell kTarget from kVertex.
+  explicit ConflictFinder(std::uint32_t robots, bool targets = true)
+      : targets_(targets), slot_(robots, kNoSlot) {}
   /// Appends the earliest conflict of `robot` on `path` with each other robot of the table.
   /// Cost: the visits at the vertices of the path.
   void find(std::uint32_t robot, const Path& path, const PathTable& table,
@@ -37,6 +39,7 @@ class ConflictFinder {
   void note(const Conflict& conflict, std::uint32_t other, std::size_t first,
             std::vector<Conflict>& out);
 
+  bool targets_;
   std::vector<std::uint32_t> slot_;  // other robot -> place of its conflict in `out`
 };
 

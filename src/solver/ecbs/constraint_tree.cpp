@@ -1,7 +1,5 @@
 #include "solver/ecbs/constraint_tree.h"
 
-#include <cmath>
-
 namespace split_mapf {
 
 std::uint32_t ConstraintTree::addPath(Path path) {
@@ -36,14 +34,8 @@ std::uint32_t ConstraintTree::lowest() {
   return open_.top().node;
 }
 
-std::uint64_t ConstraintTree::limit(std::uint64_t lower_bound) const {
-  // The epsilon keeps a product such as 1.1 * 10 from falling below its exact value.
-  return static_cast<std::uint64_t>(
-      std::floor(suboptimality_ * static_cast<double>(lower_bound) + 1e-9));
-}
-
 std::uint32_t ConstraintTree::best() {
-  const std::uint64_t most = limit(lowerBound());
+  const std::uint64_t most = settings_.limit(lowerBound());
   while (!waiting_.empty() && waiting_.top().key <= most) {
     const std::uint32_t number = waiting_.top().node;
     waiting_.pop();

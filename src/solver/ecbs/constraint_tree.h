@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/ecbs/conflicts.h"
+#include "solver/ecbs/settings.h"
 
 namespace split_mapf {
 
@@ -28,7 +29,7 @@ struct TreeNode {
 /// cost is at most w times the least lower bound, fewest conflicts first.
 class ConstraintTree {
  public:
-  explicit ConstraintTree(double suboptimality) : suboptimality_(suboptimality) {}
+  explicit ConstraintTree(const EcbsSettings& settings) : settings_(settings) {}
 
   std::uint32_t addPath(Path path);
   const Path& path(std::uint32_t number) const { return paths_[number]; }
@@ -44,8 +45,6 @@ class ConstraintTree {
   /// The best node of FOCAL; it stays open until close(). @pre !empty()
   std::uint32_t best();
   void close(std::uint32_t number);
-  /// The greatest cost allowed under a lower bound.
-  std::uint64_t limit(std::uint64_t lower_bound) const;
 
  private:
   struct Entry {
@@ -63,7 +62,7 @@ class ConstraintTree {
   using Queue = std::priority_queue<Entry, std::vector<Entry>, Later>;
   void dropClosed(Queue& queue);
 
-  double suboptimality_;
+  const EcbsSettings& settings_;
   std::deque<TreeNode> nodes_;
   std::deque<Path> paths_;
   Queue open_;     // by lower bound

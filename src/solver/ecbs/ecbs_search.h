@@ -6,8 +6,8 @@
 
 #include "solver/ecbs/conflicts.h"
 #include "solver/ecbs/constraint_tree.h"
+#include "solver/ecbs/low_level.h"
 #include "solver/search/path_table.h"
-#include "solver/search/safe_interval_search.h"
 #include "split_mapf/solver/solver.h"
 
 namespace split_mapf {
@@ -15,9 +15,8 @@ namespace split_mapf {
 /// One run of enhanced conflict-based search. See EcbsSolver for the method.
 class EcbsSearch {
  public:
-  /// @param expansion_limit  as in SolverOptions.
-  EcbsSearch(const Instance& instance, Objective objective, double suboptimality,
-             std::uint64_t expansion_limit, const Deadline& deadline);
+  /// @pre all arguments outlive this object.
+  EcbsSearch(const Instance& instance, const EcbsSettings& settings, const Deadline& deadline);
   SolveResult run();
 
  private:
@@ -34,30 +33,24 @@ class EcbsSearch {
   bool adoptInstead(std::uint32_t node, Child& child);
   std::optional<Child> makeChild(std::uint32_t parent, const Constraint& constraint);
   bool planChild(std::uint32_t parent, Child& child);
-  bool planForMakespan(const TreeNode& parent, SearchQuery& query, Child& child);
-  bool planForSumOfCosts(const TreeNode& parent, SearchQuery& query, Child& child);
-  std::uint32_t shortestUnderConstraints(SearchQuery query);
+  bool planForMakespan(const TreeNode& parent, Child& child);
+  bool planForSumOfCosts(const TreeNode& parent, Child& child);
   void gatherConstraints(std::uint32_t node, std::uint32_t robot);
   void completeChild(std::uint32_t parent, Child& child);
   const Conflict& choose(const TreeNode& node) const;
-  SearchQuery queryFor(std::uint32_t robot) const;
-  /// Allows paths up to w times `bound`, the lower bound of the robot or of all.
-  void limitArrival(SearchQuery& query, std::uint32_t bound) const;
-  Path runSearch(const SearchQuery& query);
+  Path fewestCollisions(std::uint32_t robot, std::uint32_t bound, std::uint32_t own_bound);
+  /// kForever when there is none.
+  std::uint32_t shortestUnderConstraints(std::uint32_t robot);
   SolveResult finish(SolveResult result, std::uint64_t lower_bound);
 
   const Instance& instance_;
-  Objective objective_;
-  std::uint64_t expansion_limit_;
+  const EcbsSettings& settings_;
   const Deadline& deadline_;
   ConstraintTree tree_;
   PathTable table_;
-  SafeIntervalSearch search_;
+  LowLevel low_level_;
   ConflictFinder finder_;
   RobotConstraints constraints_;
-  bool interrupted_ = false;  // by the deadline or the limit of expansions
-  bool exhausted_ = false;    // by the limit
-  std::uint64_t expansions_ = 0;
 
   // The plan of the node that is loaded into the table.
   std::vector<std::uint32_t> path_of_;      // robot -> path number

@@ -1,0 +1,67 @@
+#include "solver/ecbs/low_level.h"
+
+#include <utility>
+
+namespace split_mapf {
+namespace {
+
+// For makespan so many steps more weigh like one collision, as they cost nothing while the bound is
+// kept. Measured: sums of costs fall from 1.16 to 1.02 times the bound (den520d, 500 robots) and
+// the makespan stays; with 1 it rises on three of nine cells.
+constexpr std::uint32_t kMakespanSteps = 10;
+
+}  // namespace
+
+LowLevel::LowLevel(const Instance& instance, const EcbsSettings& settings, const PathTable& table,
+                   const Deadline& deadline)
+    : instance_(instance),
+      settings_(settings),
+      table_(table),
+      deadline_(deadline),
+      search_(instance.graph()) {}
+
+SearchQuery LowLevel::shortest(std::uint32_t robot) const {
+  SearchQuery query;
+  query.robot = robot;
+  query.start = instance_.start(robot);
+  query.distances = &instance_.distances(robot);
+  query.others = &table_;
+  query.mode = OthersAre::kIgnored;
+  return query;
+}
+
+SearchQuery LowLevel::collisionFree(std::uint32_t robot, std::uint32_t latest) const {
+  SearchQuery query = shortest(robot);
+  query.mode = OthersAre::kObstacles;
+  query.latest_arrival = latest;
+  return query;
+}
+
+SearchQuery LowLevel::fewestCollisions(std::uint32_t robot, std::uint32_t bound,
+                                       std::uint32_t own_bound) const {
+  SearchQuery query = shortest(robot);
+  query.mode = OthersAre::kCounted;
+  query.latest_arrival = static_cast<std::uint32_t>(settings_.limit(bound));
+  query.cheap_arrival = own_bound + static_cast<std::uint32_t>(settings_.detour);
+  if (settings_.objective == Objective::kMakespan) {
+    query.firm_arrival = bound;
+    query.steps_a_collision = kMakespanSteps;
+  }
+  return query;
+}
+
+bool LowLevel::stopped() {
+  interrupted_ = interrupted_ || exhausted_ || deadline_.expired();
+  return interrupted_;
+}
+
+Path LowLevel::run(const SearchQuery& query) {
+  SearchAnswer answer = search_.search(query, deadline_);
+  expansions_ += answer.expansions;
+  exhausted_ = settings_.expansion_limit > 0 && expansions_ > settings_.expansion_limit;
+  interrupted_ = interrupted_ || answer.interrupted || exhausted_;
+  if (interrupted_) answer.path.clear();
+  return std::move(answer.path);
+}
+
+}  // namespace split_mapf

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include "split_mapf/core/objective.h"
+
+namespace split_mapf {
+
+/// What a run of ECBS is told: the bound, and which of its techniques to use.
+struct EcbsSettings {
+  Objective objective = Objective::kMakespan;
+  double suboptimality = 1.5;
+  std::uint64_t seed = 0;
+  std::uint64_t expansion_limit = 0;  ///< as in SolverOptions
+
+  std::string order = "shortest_first";  ///< of the robots in the root's plan
+  std::uint64_t detour = 100;  ///< steps a robot may go round before more weighs like collisions
+  bool bypass = true;
+  bool targets = true;  ///< branch on arrival times where a robot runs into another's goal
+  std::uint64_t raise_every = 4;  ///< every so many nodes one of the least lower bound; 0: never
+  std::uint64_t polish = 2;       ///< passes over the plan found in which robots get earlier paths
+
+  /// The greatest cost allowed under a lower bound.
+  std::uint64_t limit(std::uint64_t lower_bound) const {
+    // The epsilon keeps a product such as 1.1 * 10 from falling below its exact value.
+    return static_cast<std::uint64_t>(
+        std::floor(suboptimality * static_cast<double>(lower_bound) + 1e-9));
+  }
+};
+
+}  // namespace split_mapf
