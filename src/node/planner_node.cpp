@@ -59,7 +59,7 @@ void run() {
   const split_mapf::PoseTransformer transformer;
   const split_mapf::GoalPlanner goal_planner(planner, options, maps, transformer);
   split_mapf::PlanPublisher publisher(node, private_node, options.publish_paths);
-  const split_mapf::PlanServices services(private_node, solvers, options, maps);
+  const split_mapf::PlanServices services(private_node, solvers, options, maps, goal_planner);
   const split_mapf::QueueLimits limits{options.max_queued_goals, workers};
   split_mapf::PlanServer server(private_node, goal_planner, publisher, limits);
   const split_mapf::ServerDiagnostics diagnostics(node, private_node, server, limits, workers);

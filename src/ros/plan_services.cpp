@@ -2,23 +2,41 @@
 
 #include <exception>
 #include <memory>
+#include <utility>
 
+#include <boost/make_shared.hpp>
+
+#include "split_mapf/core/solvability.h"
 #include "split_mapf/ros/plan_check.h"
 
 namespace split_mapf {
+namespace {
+
+Outcome outcomeOf(Solvability answer) {
+  if (answer == Solvability::kSolvable) return Outcome::kSucceeded;
+  return answer == Solvability::kUnsolvable ? Outcome::kUnsolvable : Outcome::kTimeout;
+}
+
+}  // namespace
 
 PlanServices::PlanServices(ros::NodeHandle private_node, const SolverRegistry& solvers,
-                           const ServerOptions& options, const MapSource& maps)
-    : solvers_(solvers), options_(options), maps_(maps) {
+                           const ServerOptions& options, const MapSource& maps,
+                           const GoalPlanner& goal_planner)
+    : solvers_(solvers), options_(options), maps_(maps), goal_planner_(goal_planner) {
   const boost::function<bool(ValidatePlan::Request&, ValidatePlan::Response&)> validate =
       [this](ValidatePlan::Request& request, ValidatePlan::Response& response) {
         return validatePlan(request, response);
+      };
+  const boost::function<bool(CheckSolvable::Request&, CheckSolvable::Response&)> check =
+      [this](CheckSolvable::Request& request, CheckSolvable::Response& response) {
+        return checkSolvable(request, response);
       };
   const boost::function<bool(ListSolvers::Request&, ListSolvers::Response&)> list =
       [this](ListSolvers::Request& request, ListSolvers::Response& response) {
         return listSolvers(request, response);
       };
   validate_ = private_node.advertiseService("validate_plan", validate);
+  check_ = private_node.advertiseService("check_solvable", check);
   list_ = private_node.advertiseService("list_solvers", list);
 }
 
@@ -33,6 +51,36 @@ bool PlanServices::validatePlan(ValidatePlan::Request& request,
     response.violations.emplace_back(error.what());
   }
   response.valid = response.violations.empty();
+  return true;
+}
+
+bool PlanServices::checkSolvable(CheckSolvable::Request& request,
+                                 CheckSolvable::Response& response) const {
+  Outcome outcome = Outcome::kInternalError;
+  try {
+    const auto goal = boost::make_shared<PlanPathsGoal>();
+    goal->map = std::move(request.map);
+    goal->robots = std::move(request.robots);
+    const GoalOptions options = goal_planner_.readOptions(request.options);
+    const Deadline deadline(options.plan.time_limit_sec);
+    const PreparedGoal prepared = goal_planner_.prepare(goal, options, deadline);
+    const SolvabilityVerdict verdict = split_mapf::checkSolvable(prepared.instance, deadline);
+    outcome = outcomeOf(verdict.answer);
+    response.reason = outcome == Outcome::kTimeout ? "undecided within the time limit"
+                                                   : explain(verdict, prepared.instance.grid());
+    for (const std::uint32_t robot : verdict.robots) {
+      response.faults.push_back(
+          makeFault(prepared.robots.ids[robot], outcome, "is one of the robots that cannot pass"));
+    }
+  } catch (const GoalError& error) {
+    outcome = error.outcome();
+    response.reason = error.what();
+    response.faults = error.faults();
+  } catch (const std::exception& error) {
+    response.reason = error.what();
+  }
+  response.outcome = codeOf(outcome);
+  response.solvable = outcome == Outcome::kSucceeded;
   return true;
 }
 

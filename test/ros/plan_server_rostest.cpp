@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <ros/ros.h>
+#include <split_mapf/CheckSolvable.h>
 #include <split_mapf/ListSolvers.h>
 #include <split_mapf/PlanOutcome.h>
 #include <split_mapf/ValidatePlan.h>
@@ -188,7 +189,13 @@ INSTANTIATE_TEST_SUITE_P(
         BadGoal{"Solver", PlanOutcome::UNKNOWN_SOLVER, [](auto& g) { g.options.solver = "oracle"; },
                 nobody, "oracle"},
         BadGoal{"SolverOption", PlanOutcome::INVALID_OPTION,
-                [](auto& g) { g.options.solver_options = {"colour=red"}; }, nobody, "colour"},
+                [](auto& g) {
+                  g.options.solver = "ecbs";
+                  g.options.solver_options = {"colour=red"};
+                },
+                nobody, "colour"},
+        BadGoal{"OptionOfNoSolver", PlanOutcome::INVALID_OPTION,
+                [](auto& g) { g.options.solver_options = {"order=random"}; }, nobody, "auto"},
         BadGoal{"SplitText", PlanOutcome::INVALID_SPLIT, [](auto& g) { g.options.split = "8q"; },
                 nobody, "8q"},
         BadGoal{"SplitRatios", PlanOutcome::INVALID_SPLIT,
@@ -370,6 +377,40 @@ TEST_F(PlannerNode, ValidatesPlansOfOthers) {
   call.request.map.data.clear();
   ASSERT_TRUE(service.call(call));
   EXPECT_FALSE(call.response.valid);
+}
+
+TEST_F(PlannerNode, TellsWhetherAPlanExists) {
+  ros::ServiceClient service = node_.serviceClient<CheckSolvable>("split_mapf/check_solvable");
+  CheckSolvable call;
+  call.request.map = smallGoal().map;
+  call.request.robots = smallGoal().robots;
+  ASSERT_TRUE(service.call(call));
+  EXPECT_TRUE(call.response.solvable) << call.response.reason;
+  EXPECT_EQ(call.response.outcome, PlanOutcome::SUCCEEDED);
+  EXPECT_TRUE(call.response.faults.empty());
+
+  // Two robots that would have to pass each other in a corridor.
+  CheckSolvable knot;
+  knot.request.map = mapFromAscii({"...."});
+  knot.request.robots = {taskBetween("one", poseAt(0.5, 0.5), poseAt(3.5, 0.5)),
+                         taskBetween("two", poseAt(3.5, 0.5), poseAt(0.5, 0.5))};
+  ASSERT_TRUE(service.call(knot));
+  EXPECT_FALSE(knot.response.solvable);
+  EXPECT_EQ(knot.response.outcome, PlanOutcome::UNSOLVABLE);
+  EXPECT_FALSE(knot.response.reason.empty());
+  std::set<std::string> robots;
+  for (const RobotFault& fault : knot.response.faults) robots.insert(fault.robot_id);
+  EXPECT_EQ(robots, (std::set<std::string>{"one", "two"}));
+
+  // What is wrong with the request is said as for a goal.
+  CheckSolvable outside = call;
+  outside.request.robots.front().goal = poseAt(60, 2);
+  outside.response = CheckSolvable::Response();
+  ASSERT_TRUE(service.call(outside));
+  EXPECT_FALSE(outside.response.solvable);
+  EXPECT_EQ(outside.response.outcome, PlanOutcome::OUTSIDE_MAP);
+  ASSERT_EQ(outside.response.faults.size(), 1U);
+  EXPECT_EQ(outside.response.faults.front().robot_id, "left");
 }
 
 TEST_F(PlannerNode, ListsItsSolvers) {
