@@ -159,7 +159,8 @@ void PlanRun::searchOptimum() {
   options.expansion_limit = kOptimumExpansions;
   SolveResult result = solvers_.create("ecbs", options)->solve(instance_, deadline_);
   const auto bound = static_cast<double>(result.lower_bound);
-  if (bound > report_.proved_lower_bound) {
+  const bool raised = bound > report_.proved_lower_bound;
+  if (raised) {
     report_.proved_lower_bound = bound;
     report_.certified_by = "ecbs";
     log_.setLowerBound(bound);
@@ -167,9 +168,12 @@ void PlanRun::searchOptimum() {
   if (result.plan &&
       costOf(*result.plan, report_.objective) < costOf(*report_.plan, report_.objective)) {
     accept(std::move(*result.plan));
-  } else {
-    judge();
+    return;
   }
+  judge();
+  if (!raised) return;
+  report_.trace.push_back(
+      {log_.elapsedSec(), report_.makespan, report_.sum_of_costs, report_.proved_lower_bound});
 }
 
 TimeSplitOptions PlanRun::timeSplitOptions() const {
