@@ -14,6 +14,9 @@ constexpr double kTolerance = 0.02;
 // Of two processors a split keeps so much busy.
 constexpr double kParallelShare = 0.8;
 
+// What takes less is not worth a split, whatever the model says of it.
+constexpr double kLeastToSplitSec = 0.05;
+
 std::string inSeconds(double seconds) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2g s", seconds);
@@ -37,7 +40,8 @@ std::vector<MethodEstimate> candidates(const AutoQuestion& question, const CostM
   for (MethodEstimate& method : model.estimate(question.features, question.objective)) {
     const bool solver_fits = question.solver == "auto" ? has(question.solvers, method.solver)
                                                        : question.solver == method.solver;
-    const bool split_fits = question.split == "auto" || method.split == "none";
+    const bool worth_it = method.split == "none" || method.seconds >= kLeastToSplitSec;
+    const bool split_fits = question.split == "auto" ? worth_it : method.split == "none";
     if (!solver_fits || !split_fits) continue;
     method.seconds = wallSeconds(method, question.threads);
     result.push_back(std::move(method));

@@ -233,6 +233,7 @@ void PlanRun::callOthers(LadderOutcome& outcome) {
     if (!outcome.plans.empty() || outcome.last.termination != Termination::kNoPlanFound) return;
     request_.solver = solver;
     request_.split = SplitSpec{};
+    report_.subproblems.clear();  // they tell of the plan, and this one came to nothing
     space_.reset();
     request_.solver_options.expansion_limit = 0;
     outcome = climb(*split());
