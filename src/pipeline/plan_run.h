@@ -57,7 +57,7 @@ class PlanRun {
   const SolverRegistry& solvers_;
   PieceSolver piece_solver_;
   std::optional<InstanceFeatures> features_;  ///< set where `auto` had to choose
-  std::string solver_said_;                    ///< of the plan of an unsplit instance
+  std::string solver_said_;                   ///< of the plan of an unsplit instance
   std::string choice_;                        ///< why, for people
   std::optional<SpaceSplit> space_;
   PlanReport report_;
