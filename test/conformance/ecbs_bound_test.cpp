@@ -3,6 +3,7 @@
 
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "split_mapf/core/validate.h"
 #include "split_mapf/solver/registry.h"
@@ -69,6 +70,54 @@ TEST_P(EcbsBound, TheInstancesAreNotAllTrivial) {
   }
   EXPECT_GT(above_shortest_paths, 30);
 }
+
+/// Parameters: an option of the solver and a value other than its default; objective. Whatever
+/// technique is used or left out, the bound holds.
+class EcbsTechniques
+    : public ::testing::TestWithParam<std::tuple<std::pair<std::string, std::string>, Objective>> {
+};
+
+TEST_P(EcbsTechniques, KeepTheBound) {
+  constexpr double kW = 1.3;
+  constexpr double kShortSec = 0.05;  // some need very long without a technique
+  const auto& [option, objective] = GetParam();
+  SolverOptions options;
+  options.objective = objective;
+  options.suboptimality = kW;
+  options.values.insert(option);
+  const auto solver = builtinSolvers().create("ecbs", options);
+  int solved = 0;
+  for (const OracleCase& c : oracleCases()) {
+    if (c.seed >= 200 || !c.optimum(objective) || c.isKnot()) continue;
+    SCOPED_TRACE("seed " + std::to_string(c.seed) + test::describe(c.instance));
+    const SolveResult result = solver->solve(c.instance, Deadline(kShortSec));
+    ASSERT_LE(result.lower_bound, *c.optimum(objective));
+    if (!result.plan) continue;
+    ++solved;
+    ASSERT_TRUE(validate(c.instance, *result.plan).empty());
+    const std::uint64_t cost = costOf(*result.plan, objective);
+    ASSERT_LE(*c.optimum(objective), cost);
+    ASSERT_LE(static_cast<double>(cost), kW * static_cast<double>(result.lower_bound) + 1e-9);
+  }
+  EXPECT_GT(solved, 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Options, EcbsTechniques,
+    ::testing::Combine(::testing::Values(std::pair<std::string, std::string>("order",
+                                                                             "longest_first"),
+                                         std::pair<std::string, std::string>("order", "random"),
+                                         std::pair<std::string, std::string>("order", "given"),
+                                         std::pair<std::string, std::string>("detour", "0"),
+                                         std::pair<std::string, std::string>("bypass", "false"),
+                                         std::pair<std::string, std::string>("targets", "false"),
+                                         std::pair<std::string, std::string>("raise_every", "1"),
+                                         std::pair<std::string, std::string>("polish", "0")),
+                       ::testing::Values(Objective::kMakespan, Objective::kSumOfCosts)),
+    [](const auto& info) {
+      const auto& option = std::get<0>(info.param);
+      return option.first + "_" + option.second + "_" + toString(std::get<1>(info.param));
+    });
 
 INSTANTIATE_TEST_SUITE_P(Weights, EcbsBound,
                          ::testing::Combine(::testing::Values(100, 120, 150, 200),

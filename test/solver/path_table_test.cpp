@@ -41,5 +41,23 @@ TEST(PathTable, CountsRobotsThatComeTheOtherWay) {
   EXPECT_EQ(table.countSwaps(1, 2, 1, 1), 0U) << "following is legal";
 }
 
+TEST(PathTable, TimelinesFollowThePathsThatComeAndGo) {
+  PathTable table(3);
+  table.insert(0, {0, 1, 1, 2});
+  ASSERT_EQ(table.timeline(1).size(), 3U);
+  EXPECT_EQ(table.timeline(1)[1].begin, 1U);
+  EXPECT_EQ(table.timeline(1)[1].end, 3U);
+  EXPECT_EQ(table.timeline(1)[1].present, 1U);
+  EXPECT_EQ(table.timeline(1)[1].entering, 1U);
+  table.insert(1, {2, 1});
+  EXPECT_EQ(table.timeline(1)[1].present, 2U);
+  EXPECT_EQ(table.timeline(1)[2].present, 1U);
+  EXPECT_EQ(table.timeline(1)[2].end, kForever);
+  table.remove(1, {2, 1});
+  table.remove(0, {0, 1, 1, 2});
+  ASSERT_EQ(table.timeline(1).size(), 1U);
+  EXPECT_EQ(table.timeline(1)[0].present, 0U);
+}
+
 }  // namespace
 }  // namespace split_mapf

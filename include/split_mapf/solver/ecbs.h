@@ -14,11 +14,11 @@ struct EcbsSettings;
 /// Source: Barer et al., SoCS 2014. Deviations: for makespan a node's cost is the maximum, OPEN is
 /// ordered by lower bounds and every robot may use any path up to floor(w * bound), not w times its
 /// own; the low level asks for the exact shortest path under the constraints first and then for the
-/// path with the fewest collisions within the bound; bypass (Boyarski et al., ICAPS 2015); a robot
-/// in another's goal branches on "arrives later" against "never there again" (after target
-/// reasoning, Li et al., ICAPS 2020).
-/// Complete on solvable instances; on an unsolvable one it searches until the deadline, unless a
-/// robot is cut off from its goal, which it proves at once.
+/// path with the fewest collisions within the bound; bypass (Boyarski et al., ICAPS 2015); the plan
+/// found is polished; a robot in another's goal branches on "arrives later" against "never there
+/// again" (after target reasoning, Li et al., ICAPS 2020). Complete on solvable instances; on an
+/// unsolvable one it searches until the deadline, unless a robot is cut off from its goal, which it
+/// proves at once.
 class EcbsSolver : public Solver {
  public:
   /// @throws OptionError for a suboptimality below 1 or an option value out of range.

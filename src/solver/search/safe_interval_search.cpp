@@ -17,14 +17,13 @@ constexpr std::size_t kMostReserved = std::size_t{1} << 20;
 /// The first segment that ends behind `step`; `count` if there is none. Without branches to guess,
 /// which would cost more than all else in the search.
 std::uint32_t firstEndingAfter(const Segment* segments, std::uint32_t count, std::uint32_t step) {
-  const Segment* first = segments;
+  std::uint32_t first = 0;
   for (std::uint32_t left = count; left > 1;) {
     const std::uint32_t half = left / 2;
-    first += half * static_cast<std::uint32_t>(first[half - 1].end <= step);
+    first += half * static_cast<std::uint32_t>(segments[first + half - 1].end <= step);
     left -= half;
   }
-  const auto number = static_cast<std::uint32_t>(first - segments);
-  return number + (number < count && first->end <= step ? 1 : 0);
+  return first + (first < count && segments[first].end <= step ? 1 : 0);
 }
 
 }  // namespace
