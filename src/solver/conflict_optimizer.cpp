@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <memory>
-#include <numeric>
 #include <string>
 #include <vector>
 
 #include "solver/conflict_optimizer/placement.h"
+#include "solver/search/robot_order.h"
 #include "split_mapf/core/option_values.h"
 #include "split_mapf/core/random.h"
 
@@ -18,15 +18,12 @@ constexpr std::uint32_t kFewRobots = 100;
 // Placings that depart late, once a horizon has failed.
 constexpr std::uint32_t kDelayedOneIn = 4;
 
-std::vector<std::uint32_t> shortestFirst(const Instance& instance, std::uint64_t seed) {
-  std::vector<std::uint32_t> order(instance.robots());
-  std::iota(order.begin(), order.end(), 0U);
+/// Shortest first; the seed decides between equal lengths.
+std::vector<std::uint32_t> firstQueue(const Instance& instance, std::uint64_t seed) {
   RandomEngine engine(seed);
-  shuffle(order, engine);
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return instance.shortestLength(a) < instance.shortestLength(b);
-  });
-  return order;
+  std::vector<std::uint32_t> queue = makeOrder(instance, "random", engine);
+  sortShortestFirst(instance, queue);
+  return queue;
 }
 
 }  // namespace
@@ -59,7 +56,7 @@ SolveResult ConflictOptimizerSolver::solve(const Instance& instance,
   SolveResult result;
   if (const auto robot = findCutOffRobot(instance)) return cutOffResult(*robot);
   result.lower_bound = lowerBound(instance, objective_);
-  Placement placement(instance, shortestFirst(instance, seed_), seed_);
+  Placement placement(instance, firstQueue(instance, seed_), seed_);
   const std::uint32_t bound = makespanLowerBound(instance);
   Placement::Effort effort;
   effort.patience =

@@ -6,6 +6,7 @@
 
 #include "solver/ecbs/ecbs_search.h"
 #include "solver/ecbs/settings.h"
+#include "solver/search/robot_order.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/option_values.h"
 
@@ -22,8 +23,7 @@ EcbsSolver::EcbsSolver(const SolverOptions& options) : settings_(new EcbsSetting
                       " is out of range: a number of at least 1 is expected");
   }
   const OptionValues values(options.values);
-  settings.order = values.choice("order", settings.order,
-                                 {"shortest_first", "longest_first", "random", "given"});
+  settings.order = values.choice("order", settings.order, robotOrders());
   settings.detour = values.count("detour", settings.detour);
   settings.bypass = values.flag("bypass", settings.bypass);
   settings.targets = values.flag("targets", settings.targets);

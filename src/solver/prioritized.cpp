@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <memory>
-#include <numeric>
 #include <unordered_set>
 #include <utility>
 #include <vector>
 
 #include <boost/functional/hash.hpp>
 
+#include "solver/search/robot_order.h"
 #include "solver/search/safe_interval_search.h"
 #include "split_mapf/core/option_values.h"
 #include "split_mapf/core/random.h"
@@ -17,21 +17,6 @@ namespace split_mapf {
 namespace {
 
 using Order = std::vector<std::uint32_t>;
-
-Order initialOrder(const Instance& instance, const std::string& name, RandomEngine& engine) {
-  Order order(instance.robots());
-  std::iota(order.begin(), order.end(), 0U);
-  if (name == "random") shuffle(order, engine);
-  if (name == "shortest_first" || name == "longest_first") {
-    const bool shortest = name == "shortest_first";
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-      const std::uint32_t length_a = instance.shortestLength(a);
-      const std::uint32_t length_b = instance.shortestLength(b);
-      return shortest ? length_a < length_b : length_b < length_a;
-    });
-  }
-  return order;
-}
 
 /// Orders that were tried. Gives up on finding a new one after a while, as few robots have few
 /// orders.
@@ -89,8 +74,7 @@ PrioritizedSolver::PrioritizedSolver(const SolverOptions& options)
       seed_(options.seed),
       expansion_limit_(options.expansion_limit) {
   const OptionValues values(options.values);
-  settings_.order = values.choice("order", settings_.order,
-                                  {"shortest_first", "longest_first", "random", "given"});
+  settings_.order = values.choice("order", settings_.order, robotOrders());
   settings_.restarts = values.count("restarts", settings_.restarts);
 }
 
@@ -113,7 +97,7 @@ SolveResult PrioritizedSolver::solve(const Instance& instance, const Deadline& d
   SafeIntervalSearch search(instance.graph());
   PathTable table(instance.graph().size());
   TriedOrders tried;
-  Order order = initialOrder(instance, settings_.order, engine);
+  Order order = makeOrder(instance, settings_.order, engine);
   for (std::uint64_t restart = 0;; ++restart) {
     if (!tried.makeNew(order, engine) || restart > settings_.restarts) {
       result.termination = Termination::kNoPlanFound;
