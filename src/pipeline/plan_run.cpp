@@ -9,7 +9,7 @@
 #include "pipeline/auto_choice.h"
 #include "pipeline/phase_ladder.h"
 #include "pipeline/refine.h"
-#include "pipeline/replan_singly.h"
+#include "solver/search/replan_singly.h"
 #include "split_mapf/core/compaction.h"
 #include "split_mapf/core/validate.h"
 

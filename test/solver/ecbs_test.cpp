@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "solver/ecbs/conflicts.h"
-#include "solver/ecbs/polish.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/validate.h"
 #include "support/ascii_grid.h"
@@ -53,20 +52,6 @@ TEST(ConflictFinder, TellsNoTargetsApartWhenToldSo) {
   ConflictFinder(2, false).find(1, {2, 2, 1, 3}, table, found);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].kind, Conflict::Kind::kVertex);
-}
-
-TEST(Polish, GivesADelayedRobotAnEarlierPathAndKeepsTheOthers) {
-  const Instance instance = test::instanceFromAscii({"a...", "b..."}, {"...a", "...b"});
-  const EcbsSettings settings;
-  PathTable table(instance.graph().size());
-  std::vector<Path> paths = {{0, 0, 0, 1, 2, 3}, {4, 5, 6, 7}};
-  for (std::uint32_t i = 0; i < 2; ++i) table.insert(i, paths[i]);
-  const Deadline deadline;
-  LowLevel low_level(instance, settings, table, deadline);
-  polish(instance, 1, low_level, table, paths);
-  EXPECT_EQ(paths[0], (Path{0, 1, 2, 3}));
-  EXPECT_EQ(paths[1], (Path{4, 5, 6, 7}));
-  EXPECT_EQ(table.at(0).front().end, 1U) << "the table follows";
 }
 
 TEST(EcbsSolver, RefusesOptionValuesThatItDoesNotKnow) {

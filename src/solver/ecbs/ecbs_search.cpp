@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "solver/ecbs/polish.h"
 #include "solver/ecbs/root_plan.h"
+#include "solver/search/replan_singly.h"
 
 namespace split_mapf {
 namespace {
@@ -59,7 +59,12 @@ SolveResult EcbsSearch::run() {
 SolveResult EcbsSearch::finish(SolveResult result, std::uint64_t lower_bound) {
   result.lower_bound = lower_bound;
   if (result.plan) {
-    polish(instance_, settings_.polish, low_level_, table_, result.plan->paths);
+    const FindPath find = [this](std::uint32_t robot, std::uint32_t latest_arrival) {
+      return low_level_.run(low_level_.collisionFree(robot, latest_arrival));
+    };
+    replanSingly(
+        instance_, settings_.polish, find, [this] { return low_level_.stopped(); },
+        result.plan->paths, table_);
   }
   result.low_level_expansions = low_level_.expansions();
   certifyByLowerBound(result, settings_.objective, "ecbs");

@@ -1,0 +1,64 @@
+#include "solver/search/replan_singly.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "solver/search/eviction_search.h"
+
+namespace split_mapf {
+namespace {
+
+std::vector<std::uint32_t> mostDelayedFirst(const Instance& instance,
+                                            const std::vector<Path>& paths) {
+  std::vector<std::size_t> delay(paths.size());
+  std::vector<std::uint32_t> delayed;
+  for (std::uint32_t i = 0; i < paths.size(); ++i) {
+    delay[i] = paths[i].size() - 1 - instance.shortestLength(i);
+    if (delay[i] > 0) delayed.push_back(i);
+  }
+  std::stable_sort(delayed.begin(), delayed.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return delay[a] > delay[b]; });
+  return delayed;
+}
+
+}  // namespace
+
+void replanSingly(const Instance& instance, std::uint64_t passes, const FindPath& find,
+                  const std::function<bool()>& stopped, std::vector<Path>& paths,
+                  PathTable& table) {
+  bool gained = true;
+  for (std::uint64_t pass = 0; pass < passes && gained; ++pass) {
+    gained = false;
+    for (const std::uint32_t robot : mostDelayedFirst(instance, paths)) {
+      if (stopped()) return;
+      table.remove(robot, paths[robot]);
+      Path path = find(robot, static_cast<std::uint32_t>(paths[robot].size() - 2));
+      if (!path.empty()) {
+        paths[robot] = std::move(path);
+        gained = true;
+      }
+      table.insert(robot, paths[robot]);
+    }
+  }
+}
+
+Plan replanSingly(const Instance& instance, Plan plan, std::uint64_t passes,
+                  const Deadline& deadline) {
+  trimToArrival(plan);
+  PathTable table(instance.graph().size());
+  for (std::uint32_t i = 0; i < instance.robots(); ++i) table.insert(i, plan.paths[i]);
+  EvictionSearch search(instance.graph());
+  const FindPath find = [&](std::uint32_t robot, std::uint32_t latest_arrival) {
+    EvictionQuery query;
+    query.start = instance.start(robot);
+    query.distances = &instance.distances(robot);
+    query.placed = &table;
+    query.latest_arrival = latest_arrival;
+    return search.search(query, deadline).path;
+  };
+  replanSingly(
+      instance, passes, find, [&] { return deadline.expired(); }, plan.paths, table);
+  return plan;
+}
+
+}  // namespace split_mapf
