@@ -6,16 +6,10 @@
 #include <mutex>
 #include <vector>
 
-#include "split_mapf/core/instance.h"
+#include "solver/search/neighbourhood_search.h"
 #include "split_mapf/core/plan.h"
 
 namespace split_mapf {
-
-/// A robot's new path.
-struct PathChange {
-  std::uint32_t robot = 0;
-  Path path;
-};
 
 /// The best plan so far, shared by the workers of a refinement. It is valid at every moment and its
 /// sum of costs never grows. Workers keep copies of it and offer changes against the version that

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/incumbent.h"
-#include "pipeline/neighbourhood.h"
+#include "solver/search/neighbourhood.h"
 #include "split_mapf/core/generator.h"
 #include "split_mapf/core/validate.h"
 #include "split_mapf/solver/conflict_optimizer.h"

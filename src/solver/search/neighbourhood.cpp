@@ -1,4 +1,4 @@
-#include "pipeline/neighbourhood.h"
+#include "solver/search/neighbourhood.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "solver/search/eviction_search.h"
+#include "solver/search/neighbourhood.h"
+#include "split_mapf/core/deadline.h"
+#include "split_mapf/core/instance.h"
+#include "split_mapf/core/plan.h"
+
+namespace split_mapf {
+
+/// A robot's new path.
+struct PathChange {
+  std::uint32_t robot = 0;
+  Path path;
+};
+
+/// Large-neighbourhood search for sum of costs on a valid plan: takes some robots out and plans
+/// them anew, one after another in a random order, within what they cost together before. A result
+/// of equal cost counts too, as it leads across plateaus. The plan is valid after every step and
+/// its cost never grows. Deterministic but for the deadline. Not thread-safe.
+/// Source: Li et al., IJCAI 2021; deviations, see NeighbourhoodPicker.
+class NeighbourhoodSearch {
+ public:
+  /// Asked before a change is taken over; false leaves the plan as it was.
+  using Accept = std::function<bool(const std::vector<PathChange>& changes)>;
+
+  /// @param latest_arrival  nobody arrives after it. @pre the plan is valid and keeps it, its paths
+  /// end at their arrivals; the instance outlives this object.
+  NeighbourhoodSearch(const Instance& instance, Plan plan, std::uint32_t latest_arrival,
+                      std::uint64_t seed);
+
+  /// Tries one neighbourhood; returns how many steps it gained.
+  std::uint64_t tryOne(const Deadline& deadline, const Accept& accept);
+  /// Puts a robot on another path. @pre the plan is valid again after the last of such changes.
+  void replace(std::uint32_t robot, Path path);
+
+  const Plan& plan() const { return plan_; }
+  std::uint64_t expansions() const { return expansions_; }
+
+ private:
+  bool replan(std::uint64_t budget, const Deadline& deadline);
+
+  const Instance& instance_;
+  std::uint32_t latest_arrival_;
+  NeighbourhoodPicker picker_;
+  EvictionSearch search_;
+  Plan plan_;
+  PathTable table_;
+  std::uint64_t expansions_ = 0;
+  std::vector<std::uint32_t> robots_;  // of the current neighbourhood, as are
+  std::vector<PathChange> changes_;    // these
+};
+
+}  // namespace split_mapf
