@@ -17,11 +17,11 @@ EvictionAnswer EvictionSearch::search(const EvictionQuery& query, const Deadline
   EvictionAnswer answer;
   reset();
   if (!prepareGoal() || !pushStart()) return answer;
-  while (queued_ > 0 || !heap_.empty()) {
+  while (!queue_.empty() || !heap_.empty()) {
     const std::uint32_t index = pop();
-    const State& state = states_[index];
+    const State state = queue_[index];
     if (state.span == kNone) {
-      answer.path = reconstruct(index);
+      answer.path = queue_.pathTo(index);
       return answer;
     }
     Seen& span = seen(state.vertex, state.span);
@@ -37,14 +37,9 @@ EvictionAnswer EvictionSearch::search(const EvictionQuery& query, const Deadline
 }
 
 void EvictionSearch::reset() {
-  if (!buckets_.empty()) {
-    const std::size_t used = std::min(last_bucket_ + 1, buckets_.size());
-    std::fill(buckets_.begin(), buckets_.begin() + static_cast<std::ptrdiff_t>(used), kNone);
-  }
-  states_.clear();
+  queue_.clear();
   seen_.clear();
   heap_.clear();
-  current_bucket_ = last_bucket_ = queued_ = 0;
   if (++search_number_ == 0) {
     std::fill(met_.begin(), met_.end(), 0);
     search_number_ = 1;
@@ -110,30 +105,13 @@ bool EvictionSearch::pushStart() {
 }
 
 void EvictionSearch::push(const State& state, std::uint32_t estimate) {
-  const auto index = static_cast<std::uint32_t>(states_.size());
-  states_.push_back(state);
-  if (state.weight > 0) {
-    heap_.push_back({state.weight, estimate, index});
-    std::push_heap(heap_.begin(), heap_.end(), comesLater);
-    return;
-  }
-  const std::size_t bucket = estimate - first_estimate_;
-  if (bucket >= buckets_.size()) buckets_.resize(2 * bucket + 64, kNone);
-  states_.back().next = buckets_[bucket];
-  buckets_[bucket] = index;
-  current_bucket_ = std::min(current_bucket_, bucket);
-  last_bucket_ = std::max(last_bucket_, bucket);
-  ++queued_;
+  if (state.weight == 0) return queue_.push(state, estimate - first_estimate_);
+  heap_.push_back({state.weight, estimate, queue_.add(state)});
+  std::push_heap(heap_.begin(), heap_.end(), comesLater);
 }
 
 std::uint32_t EvictionSearch::pop() {
-  if (queued_ > 0) {
-    while (buckets_[current_bucket_] == kNone) ++current_bucket_;
-    const std::uint32_t index = buckets_[current_bucket_];
-    buckets_[current_bucket_] = states_[index].next;
-    --queued_;
-    return index;
-  }
+  if (!queue_.empty()) return queue_.pop();
   std::pop_heap(heap_.begin(), heap_.end(), comesLater);
   const std::uint32_t index = heap_.back().index;
   heap_.pop_back();
@@ -141,7 +119,7 @@ std::uint32_t EvictionSearch::pop() {
 }
 
 void EvictionSearch::expand(std::uint32_t index) {
-  const State state = states_[index];
+  const State state = queue_[index];
   wait(state, index);
   const std::uint32_t leave_by = endOf(state.vertex, state.span);
   for (const Vertex to : graph_.neighbours(state.vertex)) move(state, index, to, leave_by);
@@ -234,18 +212,6 @@ void EvictionSearch::reach(std::uint32_t parent, Vertex to, std::uint32_t span, 
     there.pushed_weight = weight;
   }
   push(reached, estimate);
-}
-
-Path EvictionSearch::reconstruct(std::uint32_t index) const {
-  Path path(states_[index].time + 1);
-  std::uint32_t until = states_[index].time;
-  path[until] = states_[index].vertex;
-  for (std::uint32_t i = states_[index].parent; i != kNone; i = states_[i].parent) {
-    for (std::uint32_t t = states_[i].time; t < until; ++t) path[t] = states_[i].vertex;
-    until = states_[i].time;
-  }
-  std::fill(path.begin(), path.begin() + until, query_->start);
-  return path;
 }
 
 std::vector<std::uint32_t> robotsInTheWay(const PathTable& placed, const Path& path) {

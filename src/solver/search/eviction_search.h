@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/search/bucket_queue.h"
 #include "solver/search/path_table.h"
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/distance_table.h"
@@ -53,7 +54,7 @@ class EvictionSearch {
     std::uint32_t time;
     std::uint32_t weight;
     std::uint32_t parent;
-    std::uint32_t next;  // in its bucket
+    std::uint32_t next = kNone;  // in its bucket
   };
   struct Seen {  // what was seen of a span
     std::uint32_t closed_time = kNone;
@@ -83,7 +84,6 @@ class EvictionSearch {
   void push(const State& state, std::uint32_t estimate);
   std::uint32_t pop();
   void reset();
-  Path reconstruct(std::uint32_t index) const;
 
   // Span 2k of a vertex is the gap before visit k, span 2k + 1 visit k itself.
   static bool isVisit(std::uint32_t span) { return span % 2 == 1; }
@@ -104,12 +104,8 @@ class EvictionSearch {
   std::uint32_t earliest_hold_ = 0;
   std::vector<std::uint32_t> weight_from_visit_;
 
-  std::vector<State> states_;
-  std::vector<std::uint32_t> buckets_;  // over arrival, last in first out; weight 0 only
+  BucketQueue<State> queue_;  // over arrival; open there: weight 0 only
   std::uint32_t first_estimate_ = 0;
-  std::size_t current_bucket_ = 0;
-  std::size_t last_bucket_ = 0;
-  std::size_t queued_ = 0;
   std::vector<Waiting> heap_;  // weight above 0
 };
 

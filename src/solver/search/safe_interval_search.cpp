@@ -30,7 +30,7 @@ std::uint32_t firstEndingAfter(const Segment* segments, std::uint32_t count, std
 
 SafeIntervalSearch::SafeIntervalSearch(const Graph& graph) : graph_(graph), met_(graph.size()) {
   // Address space, not memory: growing would touch fresh pages at every doubling.
-  states_.reserve(std::min<std::size_t>(std::size_t{graph.size()} * kStatesAVertex, kMostReserved));
+  queue_.reserve(std::min<std::size_t>(std::size_t{graph.size()} * kStatesAVertex, kMostReserved));
 }
 
 SearchAnswer SafeIntervalSearch::search(const SearchQuery& query, const Deadline& deadline) {
@@ -39,15 +39,15 @@ SearchAnswer SafeIntervalSearch::search(const SearchQuery& query, const Deadline
   SearchAnswer answer;
   reset();
   if (!prepareGoal() || !pushStart()) return answer;
-  while (queued_ > 0) {
-    const std::uint32_t index = pop();
-    const State state = states_[index];
+  while (!queue_.empty()) {
+    const std::uint32_t index = queue_.pop();
+    const State state = queue_[index];
     if (state.kind == Kind::kArrival) {
-      answer.path = reconstruct(index);
+      answer.path = queue_.pathTo(index);
       return answer;
     }
     if (state.kind == Kind::kLater) {
-      const State source = states_[state.parent];
+      const State source = queue_[state.parent];
       expandMoves(source, state.parent, state.time);
       continue;
     }
@@ -62,16 +62,9 @@ SearchAnswer SafeIntervalSearch::search(const SearchQuery& query, const Deadline
 }
 
 void SafeIntervalSearch::reset() {
-  if (!buckets_.empty()) {
-    std::fill(
-        buckets_.begin(),
-        buckets_.begin() + static_cast<std::ptrdiff_t>(std::min(last_bucket_ + 1, buckets_.size())),
-        kNone);
-  }
-  states_.clear();
+  queue_.clear();
   best_.clear();
   own_count_ = 0;
-  current_bucket_ = last_bucket_ = queued_ = 0;
   if (++search_number_ == 0) {
     for (Meeting& meeting : met_) meeting.search = 0;
     search_number_ = 1;
@@ -149,8 +142,7 @@ bool SafeIntervalSearch::pushStart() {
   // Where collisions are not counted there is one row of buckets, and it grows with its need.
   const bool counted = query_->mode == OthersAre::kCounted;
   estimates_ = counted ? query_->latest_arrival - first_estimate_ + 1 : 0;
-  const std::size_t needed = static_cast<std::size_t>(kMostConflicts + 1) * estimates_;
-  if (buckets_.size() < needed) buckets_.resize(needed, kNone);
+  queue_.reserveKeys(static_cast<std::size_t>(kMostConflicts + 1) * estimates_);
 
   const Meeting& at = meet(query_->start);
   if (at.count == 0 || at.segments[0].begin > 0 || blocked(at.segments[0])) return false;
@@ -186,27 +178,11 @@ std::uint32_t SafeIntervalSearch::weightOf(std::uint32_t conflicts, std::uint32_
 }
 
 void SafeIntervalSearch::push(const State& state, std::uint32_t estimate) {
-  std::size_t bucket = estimate - first_estimate_;
+  std::size_t key = estimate - first_estimate_;
   if (query_->mode == OthersAre::kCounted) {
-    bucket += std::size_t{weightOf(state.conflicts, estimate)} * estimates_;
-  } else if (bucket >= buckets_.size()) {
-    buckets_.resize(2 * bucket + 1, kNone);
+    key += std::size_t{weightOf(state.conflicts, estimate)} * estimates_;
   }
-  const auto index = static_cast<std::uint32_t>(states_.size());
-  states_.push_back(state);
-  states_.back().next = buckets_[bucket];
-  buckets_[bucket] = index;
-  current_bucket_ = std::min(current_bucket_, bucket);
-  last_bucket_ = std::max(last_bucket_, bucket);
-  ++queued_;
-}
-
-std::uint32_t SafeIntervalSearch::pop() {
-  while (buckets_[current_bucket_] == kNone) ++current_bucket_;
-  const std::uint32_t index = buckets_[current_bucket_];
-  buckets_[current_bucket_] = states_[index].next;
-  --queued_;
-  return index;
+  queue_.push(state, key);
 }
 
 void SafeIntervalSearch::pushVisit(const State& state, std::uint32_t distance) {
@@ -235,7 +211,7 @@ void SafeIntervalSearch::pushLater(const State& state, std::uint32_t index, std:
 }
 
 void SafeIntervalSearch::expand(std::uint32_t index) {
-  const State state = states_[index];
+  const State state = queue_[index];
   const Meeting& at = met_[state.vertex];
   expandWait(state, at.segments[state.place - at.first_place], index);
   expandMoves(state, index, state.time + 1);
@@ -331,17 +307,6 @@ void SafeIntervalSearch::arrive(const State& state, std::uint32_t index, std::ui
       static_cast<std::uint16_t>(state.conflicts + there.present + met + collisions_after_[number]);
   arrived.kind = Kind::kArrival;
   push(arrived, time);
-}
-
-Path SafeIntervalSearch::reconstruct(std::uint32_t index) const {
-  Path path(states_[index].time + 1);
-  std::uint32_t until = states_[index].time;
-  path[until] = states_[index].vertex;
-  for (std::uint32_t i = states_[index].parent; i != kNone; i = states_[i].parent) {
-    for (std::uint32_t t = states_[i].time; t < until; ++t) path[t] = states_[i].vertex;
-    until = states_[i].time;
-  }
-  return path;
 }
 
 }  // namespace split_mapf

@@ -4,6 +4,7 @@
 #include <deque>
 #include <vector>
 
+#include "solver/search/bucket_queue.h"
 #include "solver/search/constraints.h"
 #include "solver/search/path_table.h"
 #include "solver/search/timeline.h"
@@ -115,10 +116,8 @@ class SafeIntervalSearch {
   void push(const State& state, std::uint32_t estimate);
   void pushVisit(const State& state, std::uint32_t distance);
   void pushLater(const State& state, std::uint32_t index, std::uint32_t time);
-  std::uint32_t pop();
   std::uint32_t estimateOf(std::uint32_t time, std::uint32_t distance) const;
   void reset();
-  Path reconstruct(std::uint32_t index) const;
 
   const Graph& graph_;
   TimelineBuilder builder_;
@@ -137,14 +136,10 @@ class SafeIntervalSearch {
   std::uint32_t earliest_hold_ = 0;
   std::vector<std::uint32_t> collisions_after_;
 
-  // Bucket queue over (weight, estimate), last in first out.
-  std::vector<State> states_;
-  std::vector<std::uint32_t> buckets_;
+  // Open states by (weight, estimate).
+  BucketQueue<State> queue_;
   std::uint32_t first_estimate_ = 0;
-  std::uint32_t estimates_ = 0;  // buckets a row; 0: a single row
-  std::size_t current_bucket_ = 0;
-  std::size_t last_bucket_ = 0;
-  std::size_t queued_ = 0;
+  std::uint32_t estimates_ = 0;  // keys a row; 0: a single row
 };
 
 }  // namespace split_mapf
