@@ -31,21 +31,9 @@ std::uint32_t leastShortestLength(const Instance& instance) {
 bool solveOne(const Instance& instance, Objective objective,
               const std::vector<std::uint32_t>& latest, std::uint64_t cost_limit,
               const Effort& effort, EngineResult& result) {
-  const std::uint64_t needed = ArcFlowSearch::leastMemoryBytes(instance, latest);
-  if (needed > effort.memory_mb * kBytesAMegabyte) {
-    result.end = SearchEnd::kMemory;
-    result.needed_mb = needed / kBytesAMegabyte + 1;
-    return false;
-  }
+  if (!fitsMemory(ArcFlowSearch::leastMemoryBytes(instance, latest), effort, result)) return false;
   ArcFlowSearch search(instance, objective, latest, cost_limit, effort);
-  try {
-    result.end = search.run();
-  } catch (const GlpkError& error) {
-    result.end = error.kind() == GlpkError::Kind::kMemory ? SearchEnd::kMemory : SearchEnd::kFailed;
-    result.failure = error.what();
-  }
-  result.counts.add(search.counts());
-  if (search.plan()) result.plan = search.plan();
+  runSearch(search, result);
   return result.end == SearchEnd::kExhausted;
 }
 

@@ -15,12 +15,7 @@ constexpr std::uint64_t kFirstSlack = 4;
 bool searchBelow(const Instance& instance, Objective objective, std::uint64_t limit,
                  const std::optional<Plan>& known, const Effort& effort, const Rounding& rounding,
                  EngineResult& result) {
-  const std::uint64_t needed = BranchAndPrice::leastMemoryBytes(instance, objective, limit);
-  if (needed > effort.memory_mb * kBytesAMegabyte) {
-    result.end = SearchEnd::kMemory;
-    result.needed_mb = needed / kBytesAMegabyte + 1;
-    return false;
-  }
+  if (!fitsMemory(BranchAndPrice::leastMemoryBytes(instance, objective, limit), effort, result)) return false;
   Effort rest = effort;
   if (effort.expansions > 0) {
     rest.expansions = effort.expansions - std::min(effort.expansions - 1, result.counts.expansions);
@@ -28,15 +23,8 @@ bool searchBelow(const Instance& instance, Objective objective, std::uint64_t li
   BranchAndPrice search(instance, objective, limit, rest);
   search.setRounding(rounding);
   if (known) search.suggest(*known);
-  try {
-    result.end = search.run();
-  } catch (const GlpkError& error) {
-    result.end = error.kind() == GlpkError::Kind::kMemory ? SearchEnd::kMemory : SearchEnd::kFailed;
-    result.failure = error.what();
-  }
-  result.counts.add(search.counts());
+  runSearch(search, result);
   result.lower_bound = std::max(result.lower_bound, search.lowerBound(result.end));
-  if (search.plan()) result.plan = search.plan();
   return !result.plan && result.end == SearchEnd::kExhausted;
 }
 

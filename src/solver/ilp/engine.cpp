@@ -12,4 +12,11 @@ void SearchCounts::add(const SearchCounts& later) {
   expansions += later.expansions;
 }
 
+bool fitsMemory(std::uint64_t needed_bytes, const Effort& effort, EngineResult& result) {
+  if (needed_bytes <= effort.memory_mb * kBytesAMegabyte) return true;
+  result.end = SearchEnd::kMemory;
+  result.needed_mb = needed_bytes / kBytesAMegabyte + 1;
+  return false;
+}
+
 }  // namespace split_mapf::ilp

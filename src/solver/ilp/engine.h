@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solver/ilp/conflict_row.h"
+#include "solver/ilp/glpk_model.h"
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/plan.h"
 
@@ -50,6 +51,23 @@ struct EngineResult {
   std::string failure;            ///< set when kFailed
   SearchCounts counts;
 };
+
+/// False, with the result's end set, when a search would need more memory than it may take.
+bool fitsMemory(std::uint64_t needed_bytes, const Effort& effort, EngineResult& result);
+
+/// Runs a search and takes over its end, its plan if it has one, and what it used. A failure of
+/// GLPK becomes the end.
+template <typename Search>
+void runSearch(Search& search, EngineResult& result) {
+  try {
+    result.end = search.run();
+  } catch (const GlpkError& error) {
+    result.end = error.kind() == GlpkError::Kind::kMemory ? SearchEnd::kMemory : SearchEnd::kFailed;
+    result.failure = error.what();
+  }
+  result.counts.add(search.counts());
+  if (search.plan()) result.plan = search.plan();
+}
 
 /// Turns a fractional solution into a plan that costs less than the limit, or into nothing.
 using Rounding =
