@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "solver/available/available_solvers.h"
-#include "split_mapf/core/generator.h"
 #include "split_mapf/core/validate.h"
 #include "support/ascii_grid.h"
 #include "support/oracle_cases.h"
@@ -31,16 +30,6 @@ constexpr double kKnotSec = 0.2;
 
 double secondsSince(Deadline::Clock::time_point begin) {
   return std::chrono::duration<double>(Deadline::Clock::now() - begin).count();
-}
-
-Instance generated(std::uint32_t side, double density, std::uint32_t robots) {
-  GeneratorOptions options;
-  options.width = side;
-  options.height = side;
-  options.density = density;
-  options.robots = robots;
-  const GeneratedProblem problem = generateProblem(options);
-  return Instance(problem.grid, problem.starts, problem.goals);
 }
 
 /// Parameters: name of the solver, objective.
@@ -160,7 +149,7 @@ TEST_P(SolverConformance, NeverSwapsInACorridorWithoutOne) {
 }
 
 TEST_P(SolverConformance, AnswersTimeoutWhenThereIsNoTimeLeft) {
-  const SolveResult result = makeSolver()->solve(generated(24, 0.1, 60), Deadline(0));
+  const SolveResult result = makeSolver()->solve(test::generatedInstance(24, 0.1, 60), Deadline(0));
   EXPECT_EQ(result.termination, Termination::kTimeout);
   EXPECT_FALSE(result.plan);
 }
@@ -170,7 +159,7 @@ TEST_P(SolverConformance, AnswersCancelledWhenTheFlagIsUpAlready) {
   stop->request();
   const auto begin = Deadline::Clock::now();
   const SolveResult result =
-      makeSolver()->solve(generated(24, 0.1, 60), Deadline(kPatienceSec, stop));
+      makeSolver()->solve(test::generatedInstance(24, 0.1, 60), Deadline(kPatienceSec, stop));
   EXPECT_EQ(result.termination, Termination::kCancelled);
   EXPECT_FALSE(result.plan);
   EXPECT_LT(secondsSince(begin), 1);
@@ -178,7 +167,7 @@ TEST_P(SolverConformance, AnswersCancelledWhenTheFlagIsUpAlready) {
 
 TEST_P(SolverConformance, StopsSoonWhenTheFlagIsRaisedDuringTheSearch) {
   auto stop = std::make_shared<StopFlag>();
-  const Instance instance = generated(24, 0.2, 260);
+  const Instance instance = test::generatedInstance(24, 0.2, 260);
   auto answer = std::async(std::launch::async, [&] {
     return makeSolver(1)->solve(instance, Deadline(kPatienceSec, stop));
   });
@@ -194,7 +183,7 @@ TEST_P(SolverConformance, StopsSoonWhenTheFlagIsRaisedDuringTheSearch) {
 }
 
 TEST_P(SolverConformance, TheSameSeedGivesTheSamePlanAlsoToConcurrentCallers) {
-  const Instance instance = generated(24, 0.1, 40);
+  const Instance instance = test::generatedInstance(24, 0.1, 40);
   const auto solver = makeSolver(1.5, 11);
   const SolveResult first = solver->solve(instance, Deadline(kPatienceSec));
   ASSERT_EQ(first.termination, Termination::kSolved);

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "split_mapf/core/error.h"
-#include "split_mapf/core/generator.h"
 #include "split_mapf/core/validate.h"
 #include "support/ascii_grid.h"
 #include "support/small_instances.h"
@@ -20,16 +19,6 @@ namespace split_mapf {
 namespace {
 
 using Values = std::map<std::string, std::string>;
-
-Instance generated(std::uint32_t side, double density, std::uint32_t robots) {
-  GeneratorOptions options;
-  options.width = side;
-  options.height = side;
-  options.density = density;
-  options.robots = robots;
-  const GeneratedProblem problem = generateProblem(options);
-  return Instance(problem.grid, problem.starts, problem.goals);
-}
 
 IlpSolver makeSolver(Objective objective, Values values = {}, std::uint64_t expansion_limit = 0) {
   SolverOptions options;
@@ -65,7 +54,7 @@ TEST(IlpSolver, SaysWhoCertifiedThePlan) {
     }
   }
   const SolveResult easy =
-      makeSolver(Objective::kMakespan).solve(generated(16, 0.1, 8), Deadline(60));
+      makeSolver(Objective::kMakespan).solve(test::generatedInstance(16, 0.1, 8), Deadline(60));
   EXPECT_TRUE(easy.optimal);
   EXPECT_EQ(easy.certified_by, "ilp/shortest_paths");
 }
@@ -75,7 +64,7 @@ TEST(IlpSolver, RefusesAModelThatIsTooLargeWithItsSize) {
     const SolveResult result =
         makeSolver(Objective::kMakespan,
                    {{"engine", engine}, {"heuristic", "false"}, {"memory_mb", "1"}})
-            .solve(generated(48, 0.1, 40), Deadline(60));
+            .solve(test::generatedInstance(48, 0.1, 40), Deadline(60));
     EXPECT_EQ(result.termination, Termination::kMemoryLimit);
     EXPECT_FALSE(result.plan);
     EXPECT_NE(result.message.find("would take at least"), std::string::npos) << result.message;
@@ -84,7 +73,7 @@ TEST(IlpSolver, RefusesAModelThatIsTooLargeWithItsSize) {
 }
 
 TEST(IlpSolver, ReturnsThePlanAndItsGapWhenTheEffortIsSpent) {
-  const Instance instance = generated(16, 0.1, 60);
+  const Instance instance = test::generatedInstance(16, 0.1, 60);
   const SolveResult result =
       makeSolver(Objective::kSumOfCosts, {}, 20000).solve(instance, Deadline(60));
   ASSERT_EQ(result.termination, Termination::kSolved) << result.message;
@@ -95,7 +84,7 @@ TEST(IlpSolver, ReturnsThePlanAndItsGapWhenTheEffortIsSpent) {
 }
 
 TEST(IlpSolver, IsCancelledSoon) {
-  const Instance instance = generated(24, 0.2, 120);
+  const Instance instance = test::generatedInstance(24, 0.2, 120);
   for (const std::string engine : {"column_generation", "arc_flow"}) {
     const auto stop = std::make_shared<StopFlag>();
     auto answer = std::async(std::launch::async, [&] {

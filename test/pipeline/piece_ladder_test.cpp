@@ -17,40 +17,11 @@ Instance crossing() {
                                  {".......d", ".......c", ".......b", ".......a", "........"});
 }
 
-/// Solves a piece unless `refuses` says that it should fail.
-class Picky {
- public:
-  explicit Picky(std::function<bool(const Instance&)> refuses) : refuses_(std::move(refuses)) {
-    registry_.add(test::fakeSolver("picky", [this](const Instance& piece, const Deadline& d) {
-      ++calls_;
-      if (!refuses_(piece)) return EcbsSolver(SolverOptions()).solve(piece, d);
-      SolveResult failure;
-      failure.termination = Termination::kNoPlanFound;
-      failure.message = "picky";
-      return failure;
-    }));
-  }
-
-  PlanReport plan(const Instance& instance, const std::string& split, std::uint32_t threads) {
-    Executor executor(threads);
-    PlanRequest request;
-    request.solver = "picky";
-    request.split = split;
-    return Planner(registry_, executor).plan(instance, request, Deadline());
-  }
-  int calls() const { return calls_; }
-
- private:
-  std::function<bool(const Instance&)> refuses_;
-  std::atomic<int> calls_{0};
-  SolverRegistry registry_;
-};
-
 TEST(PieceLadder, CutsAFailedPieceAnewWithOtherStates) {
   const Instance instance = crossing();
   // Refuses exactly the seam that it sees first.
   std::vector<Vertex> refused;
-  Picky solver([&](const Instance& piece) {
+  test::PickySolver solver([&](const Instance& piece) {
     if (piece.starts() != instance.starts()) return false;
     if (refused.empty()) refused = piece.goals();
     return piece.goals() == refused;
@@ -66,7 +37,7 @@ TEST(PieceLadder, CutsAFailedPieceAnewWithOtherStates) {
 TEST(PieceLadder, MergesWithTheNeighbourWhenCuttingAnewDoesNotHelp) {
   const Instance instance = crossing();
   // Refuses whatever ends before the second half.
-  Picky solver([&](const Instance& piece) {
+  test::PickySolver solver([&](const Instance& piece) {
     return piece.starts() == instance.starts() && makespanLowerBound(piece) < 4;
   });
   const PlanReport report = solver.plan(instance, "4t", 2);
@@ -78,7 +49,7 @@ TEST(PieceLadder, MergesWithTheNeighbourWhenCuttingAnewDoesNotHelp) {
 
 TEST(PieceLadder, EndsWithTheWholeHoweverManyPiecesFail) {
   const Instance instance = crossing();
-  Picky solver([&](const Instance& piece) {
+  test::PickySolver solver([&](const Instance& piece) {
     return piece.starts() != instance.starts() || piece.goals() != instance.goals();
   });
   const PlanReport report = solver.plan(instance, "8t", 2);
@@ -88,7 +59,7 @@ TEST(PieceLadder, EndsWithTheWholeHoweverManyPiecesFail) {
 }
 
 TEST(PieceLadder, TheWholesAnswerIsTheAnswer) {
-  Picky solver([](const Instance&) { return true; });
+  test::PickySolver solver([](const Instance&) { return true; });
   const PlanReport report = solver.plan(crossing(), "4t", 2);
   EXPECT_EQ(report.termination, Termination::kNoPlanFound);
   EXPECT_EQ(report.message, "picky");
@@ -99,7 +70,8 @@ TEST(PieceLadder, TheSamePlanAtAnyNumberOfThreadsWhenPiecesFail) {
   const Instance instance = crossing();
   std::set<std::vector<Path>> plans;
   for (const std::uint32_t threads : {1U, 2U, 8U}) {
-    Picky solver([](const Instance& piece) { return sumOfCostsLowerBound(piece) % 3 == 1; });
+    test::PickySolver solver(
+        [](const Instance& piece) { return sumOfCostsLowerBound(piece) % 3 == 1; });
     const PlanReport report = solver.plan(instance, "5t", threads);
     ASSERT_TRUE(report.plan);
     plans.insert(report.plan->paths);

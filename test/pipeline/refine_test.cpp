@@ -4,7 +4,6 @@
 
 #include "pipeline/incumbent.h"
 #include "solver/search/neighbourhood.h"
-#include "split_mapf/core/generator.h"
 #include "split_mapf/core/validate.h"
 #include "split_mapf/solver/conflict_optimizer.h"
 #include "split_mapf/solver/ecbs.h"
@@ -14,14 +13,7 @@
 namespace split_mapf {
 namespace {
 
-Instance crowded() {
-  GeneratorOptions options;
-  options.width = options.height = 16;
-  options.density = 0.1;
-  options.robots = 70;
-  const GeneratedProblem problem = generateProblem(options);
-  return Instance(problem.grid, problem.starts, problem.goals);
-}
+Instance crowded() { return test::generatedInstance(16, 0.1, 70); }
 
 Plan firstPlan(const Instance& instance) {
   SolverOptions options;

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "split_mapf/core/generator.h"
 #include "split_mapf/core/validate.h"
 #include "support/ascii_grid.h"
+#include "support/small_instances.h"
 
 namespace split_mapf {
 namespace {
@@ -17,14 +17,7 @@ SolveResult solve(const Instance& instance, Objective objective,
   return ConflictOptimizerSolver(options).solve(instance, Deadline(20));
 }
 
-Instance crowded() {
-  GeneratorOptions options;
-  options.width = options.height = 16;
-  options.density = 0.1;
-  options.robots = 90;
-  const GeneratedProblem problem = generateProblem(options);
-  return Instance(problem.grid, problem.starts, problem.goals);
-}
+Instance crowded() { return test::generatedInstance(16, 0.1, 90); }
 
 TEST(ConflictOptimizer, ACrowdKeepsTheMakespanBoundAndIsCertified) {
   const Instance instance = crowded();

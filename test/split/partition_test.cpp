@@ -12,6 +12,7 @@
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/generator.h"
 #include "support/ascii_grid.h"
+#include "support/small_instances.h"
 
 namespace split_mapf {
 namespace {
@@ -28,8 +29,7 @@ Instance generated(MapKind kind, std::uint64_t seed, double density) {
   options.robots = 30;
   options.seed = seed;
   if (kind == MapKind::kRandom) options.density = density;
-  const GeneratedProblem problem = generateProblem(options);
-  return Instance(problem.grid, problem.starts, problem.goals);
+  return test::generatedInstance(options);
 }
 
 /// Every cell has an owner, every region is connected.

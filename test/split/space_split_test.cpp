@@ -9,19 +9,10 @@
 #include "split_mapf/core/generator.h"
 #include "split_mapf/core/solvability.h"
 #include "support/ascii_grid.h"
+#include "support/small_instances.h"
 
 namespace split_mapf {
 namespace {
-
-Instance generated(std::uint64_t seed, double density, std::uint32_t robots) {
-  GeneratorOptions options;
-  options.width = options.height = 32;
-  options.robots = robots;
-  options.seed = seed;
-  options.density = density;
-  const GeneratedProblem problem = generateProblem(options);
-  return Instance(problem.grid, problem.starts, problem.goals);
-}
 
 SpaceSplitOptions splitInto(std::uint32_t rows, std::uint32_t columns) {
   SpaceSplitOptions options;
@@ -64,7 +55,7 @@ TEST_P(SpaceSplitOf, RandomMapsIsSound) {
   const auto [density, assignment] = GetParam();
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     for (const std::uint32_t robots : {1U, 60U, 300U}) {
-      const Instance instance = generated(seed, density, robots);
+      const Instance instance = test::generatedInstance(32, density, robots, seed);
       if (checkSolvable(instance).answer != Solvability::kSolvable) continue;
       for (const auto& [rows, columns] : {std::pair{1U, 2U}, {2U, 2U}, {3U, 3U}}) {
         SCOPED_TRACE("seed " + std::to_string(seed) + ", " + std::to_string(robots) + " robots, " +
@@ -86,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Densities, SpaceSplitOf,
 
 TEST(SpaceSplit, KeepsToTheUsualNumberOfPhasesOnOpenGrids) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    const Instance instance = generated(seed, 0.05, 80);
+    const Instance instance = test::generatedInstance(32, 0.05, 80, seed);
     SpaceSplit split(instance, splitInto(2, 2));
     ASSERT_TRUE(split.plan(Deadline()));
     EXPECT_LE(split.layout().phases.size(), 4U) << "l + m";
@@ -104,7 +95,7 @@ TEST(SpaceSplit, KeepsToTheUsualNumberOfPhasesOnOpenGrids) {
 }
 
 TEST(SpaceSplit, IsTheSameEveryTimeAndDiffersWithTheSeed) {
-  const Instance instance = generated(4, 0.1, 100);
+  const Instance instance = test::generatedInstance(32, 0.1, 100, 4);
   const auto states = [&](std::uint64_t seed) {
     SpaceSplitOptions options = splitInto(2, 2);
     options.seed = seed;
@@ -142,7 +133,7 @@ TEST(SpaceSplit, MergesRegionsWhoseRobotsCannotGetPast) {
 }
 
 TEST(SpaceSplit, RematchKeepsTheRegionsOfTheNextPhase) {
-  const Instance instance = generated(7, 0.05, 100);
+  const Instance instance = test::generatedInstance(32, 0.05, 100, 7);
   SpaceSplit split(instance, splitInto(2, 2));
   ASSERT_TRUE(split.plan(Deadline()));
   ASSERT_GE(split.layout().phases.size(), 2U);
@@ -160,7 +151,7 @@ TEST(SpaceSplit, RematchKeepsTheRegionsOfTheNextPhase) {
 }
 
 TEST(SpaceSplit, MergesAndJoinsDownToTheWhole) {
-  const Instance instance = generated(7, 0.05, 100);
+  const Instance instance = test::generatedInstance(32, 0.05, 100, 7);
   SpaceSplit split(instance, splitInto(2, 2));
   ASSERT_TRUE(split.plan(Deadline()));
   const std::size_t pieces = split.piecesOf(0).size();
@@ -182,7 +173,7 @@ TEST(SpaceSplit, RefusesMoreRegionsThanCells) {
 }
 
 TEST(SpaceSplit, StopsAtTheDeadline) {
-  const Instance instance = generated(1, 0.1, 50);
+  const Instance instance = test::generatedInstance(32, 0.1, 50, 1);
   SpaceSplit split(instance, splitInto(2, 2));
   EXPECT_FALSE(split.plan(Deadline(0)));
 }

@@ -5,6 +5,9 @@
 #include <thread>
 #include <utility>
 
+#include "split_mapf/pipeline/planner.h"
+#include "split_mapf/solver/ecbs.h"
+
 namespace split_mapf::test {
 namespace {
 
@@ -36,6 +39,32 @@ SolveResult waitForDeadline(const Instance& /*instance*/, const Deadline& deadli
   SolveResult result;
   result.termination = deadline.stopRequested() ? Termination::kCancelled : Termination::kTimeout;
   return result;
+}
+
+PickySolver::PickySolver(std::function<bool(const Instance&)> refuses)
+    : refuses_(std::move(refuses)) {
+  registry_.add(fakeSolver("picky", [this](const Instance& piece, const Deadline& deadline) {
+    ++calls_;
+    if (!refuses_(piece)) return EcbsSolver(SolverOptions()).solve(piece, deadline);
+    SolveResult failure;
+    failure.termination = Termination::kNoPlanFound;
+    failure.message = "picky";
+    return failure;
+  }));
+}
+
+PlanReport PickySolver::plan(const Instance& instance, const std::string& split,
+                             std::uint32_t threads) const {
+  return planWith(registry_, "picky", instance, split, threads);
+}
+
+PlanReport planWith(const SolverRegistry& registry, const std::string& solver,
+                    const Instance& instance, const std::string& split, std::uint32_t threads) {
+  Executor executor(threads);
+  PlanRequest request;
+  request.solver = solver;
+  request.split = split;
+  return Planner(registry, executor).plan(instance, request, Deadline());
 }
 
 }  // namespace split_mapf::test

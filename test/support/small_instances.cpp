@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "split_mapf/core/generator.h"
 #include "split_mapf/core/random.h"
 
 namespace split_mapf::test {
@@ -58,6 +59,21 @@ std::string describe(const Instance& instance) {
             " -> " + toString(grid.cellOf(instance.goal(i))) + "\n";
   }
   return text;
+}
+
+Instance generatedInstance(const GeneratorOptions& options) {
+  const GeneratedProblem problem = generateProblem(options);
+  return Instance(problem.grid, problem.starts, problem.goals);
+}
+
+Instance generatedInstance(std::uint32_t side, double density, std::uint32_t robots,
+                           std::uint64_t seed) {
+  GeneratorOptions options;
+  options.width = options.height = side;
+  options.density = density;
+  options.robots = robots;
+  options.seed = seed;
+  return generatedInstance(options);
 }
 
 }  // namespace split_mapf::test

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "split_mapf/core/generator.h"
 #include "split_mapf/core/instance.h"
 
 namespace split_mapf::test {
@@ -11,6 +12,12 @@ namespace split_mapf::test {
 /// a third are blocked. It may be unsolvable, robots may be cut off or home already. The same seed
 /// gives the same instance.
 Instance smallInstance(std::uint64_t seed);
+
+/// What the generator makes: nobody is cut off.
+Instance generatedInstance(const GeneratorOptions& options);
+/// The same for a random square map.
+Instance generatedInstance(std::uint32_t side, double density, std::uint32_t robots,
+                           std::uint64_t seed = 0);
 
 /// The instance as text, for messages of failing tests.
 std::string describe(const Instance& instance);
