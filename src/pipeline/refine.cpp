@@ -18,7 +18,6 @@ namespace {
 constexpr double kRoundSec = 0.2;
 // Placements a robot without progress before a descent is given up; doubled each time.
 constexpr std::uint64_t kFirstPatience = 5;
-constexpr std::uint32_t kDelayedOneIn = 4;
 
 /// One call of refine().
 class Refinement {
@@ -83,7 +82,7 @@ class Refinement {
         Placement placement(instance_, plan_, horizon, seed);
         Placement::Effort effort;
         effort.patience = patience_ * instance_.robots();
-        effort.delayed_one_in = kDelayedOneIn;
+        effort.delayed_one_in = Placement::kDelayedOneIn;
         if (placement.run(horizon, effort, deadline) != Placement::Outcome::kDone) return;
         const std::lock_guard<std::mutex> lock(mutex);
         if (!found) found = placement.plan();

@@ -15,8 +15,6 @@ namespace {
 
 // Fewer robots get as many placements as these.
 constexpr std::uint32_t kFewRobots = 100;
-// Placings that depart late, once a horizon has failed.
-constexpr std::uint32_t kDelayedOneIn = 4;
 
 /// Shortest first; the seed decides between equal lengths.
 std::vector<std::uint32_t> firstQueue(const Instance& instance, std::uint64_t seed) {
@@ -68,7 +66,7 @@ SolveResult ConflictOptimizerSolver::solve(const Instance& instance,
   for (std::uint64_t step = 1; bound + slack <= longest; slack += step, step += (step + 3) / 4) {
     ++result.high_level_nodes;
     const auto outcome = placement.run(static_cast<std::uint32_t>(bound + slack), effort, deadline);
-    effort.delayed_one_in = kDelayedOneIn;
+    effort.delayed_one_in = Placement::kDelayedOneIn;
     result.low_level_expansions = placement.expansions();
     if (outcome == Placement::Outcome::kSpent) continue;
     if (outcome == Placement::Outcome::kExhausted) return outOfExpansions(expansion_limit_);

@@ -16,6 +16,8 @@ namespace split_mapf {
 /// The placed paths never conflict. Not thread-safe.
 class Placement {
  public:
+  /// Placings that depart late, once a horizon has proved hard.
+  static constexpr std::uint32_t kDelayedOneIn = 4;
   enum class Outcome { kDone, kSpent, kExhausted, kInterrupted };
 
   /// @param queue  everybody, in the order of the first placing. The instance outlives this object.
