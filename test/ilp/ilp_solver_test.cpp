@@ -83,6 +83,16 @@ TEST(IlpSolver, ReturnsThePlanAndItsGapWhenTheEffortIsSpent) {
   EXPECT_NE(result.message.find("gap"), std::string::npos) << result.message;
 }
 
+TEST(IlpSolver, BothEnginesKeepToTheirEffort) {
+  const Instance instance = test::generatedInstance(16, 0.1, 60);
+  for (const std::string engine : {"column_generation", "arc_flow"}) {
+    const SolveResult result =
+        makeSolver(Objective::kSumOfCosts, {{"engine", engine}, {"heuristic", "false"}}, 1)
+            .solve(instance, Deadline(60));
+    EXPECT_EQ(result.termination, Termination::kNoPlanFound) << engine << ": " << result.message;
+  }
+}
+
 TEST(IlpSolver, IsCancelledSoon) {
   const Instance instance = test::generatedInstance(24, 0.2, 120);
   for (const std::string engine : {"column_generation", "arc_flow"}) {

@@ -32,7 +32,7 @@ bool solveOne(const Instance& instance, Objective objective,
               const std::vector<std::uint32_t>& latest, std::uint64_t cost_limit,
               const Effort& effort, EngineResult& result) {
   if (!fitsMemory(ArcFlowSearch::leastMemoryBytes(instance, latest), effort, result)) return false;
-  ArcFlowSearch search(instance, objective, latest, cost_limit, effort);
+  ArcFlowSearch search(instance, objective, latest, cost_limit, restOf(effort, result.counts));
   runSearch(search, result);
   return result.end == SearchEnd::kExhausted;
 }

@@ -76,7 +76,11 @@ SearchEnd ArcFlowSearch::run() {
 }
 
 bool ArcFlowSearch::stopped() {
-  if (effort_.deadline.expired()) end_ = SearchEnd::kInterrupted;
+  if (effort_.deadline.expired()) {
+    end_ = SearchEnd::kInterrupted;
+  } else if (effort_.expansions > 0 && counts_.expansions > effort_.expansions) {
+    end_ = SearchEnd::kEffort;
+  }
   return end_ != SearchEnd::kExhausted;
 }
 
@@ -146,6 +150,7 @@ ArcFlowSearch::Verdict ArcFlowSearch::solveRelaxation() {
     ++counts_.linear_programs;
     counts_.columns = static_cast<std::uint64_t>(model_.columns());
     counts_.rows = static_cast<std::uint64_t>(model_.rows());
+    counts_.expansions += counts_.columns;
     if (status == LpStatus::kInterrupted) {
       end_ = SearchEnd::kInterrupted;
       break;

@@ -15,12 +15,9 @@ constexpr std::uint64_t kFirstSlack = 4;
 bool searchBelow(const Instance& instance, Objective objective, std::uint64_t limit,
                  const std::optional<Plan>& known, const Effort& effort, const Rounding& rounding,
                  EngineResult& result) {
-  if (!fitsMemory(BranchAndPrice::leastMemoryBytes(instance, objective, limit), effort, result)) return false;
-  Effort rest = effort;
-  if (effort.expansions > 0) {
-    rest.expansions = effort.expansions - std::min(effort.expansions - 1, result.counts.expansions);
-  }
-  BranchAndPrice search(instance, objective, limit, rest);
+  if (!fitsMemory(BranchAndPrice::leastMemoryBytes(instance, objective, limit), effort, result))
+    return false;
+  BranchAndPrice search(instance, objective, limit, restOf(effort, result.counts));
   search.setRounding(rounding);
   if (known) search.suggest(*known);
   runSearch(search, result);

@@ -12,6 +12,14 @@ void SearchCounts::add(const SearchCounts& later) {
   expansions += later.expansions;
 }
 
+Effort restOf(const Effort& effort, const SearchCounts& counts) {
+  Effort rest = effort;
+  if (effort.expansions > 0) {
+    rest.expansions = effort.expansions - std::min(effort.expansions - 1, counts.expansions);
+  }
+  return rest;
+}
+
 bool fitsMemory(std::uint64_t needed_bytes, const Effort& effort, EngineResult& result) {
   if (needed_bytes <= effort.memory_mb * kBytesAMegabyte) return true;
   result.end = SearchEnd::kMemory;

@@ -18,7 +18,7 @@ namespace split_mapf::ilp {
 struct Effort {
   Deadline deadline;
   std::size_t memory_mb = 1024;
-  std::uint64_t expansions = 0;  ///< states of pricing; 0: no limit
+  std::uint64_t expansions = 0;  ///< states of pricing, or columns of solved programs; 0: no limit
 };
 
 /// What a search has used.
@@ -51,6 +51,9 @@ struct EngineResult {
   std::string failure;            ///< set when kFailed
   SearchCounts counts;
 };
+
+/// What is left of an effort after searches that have used `counts`; at least one expansion.
+Effort restOf(const Effort& effort, const SearchCounts& counts);
 
 /// False, with the result's end set, when a search would need more memory than it may take.
 bool fitsMemory(std::uint64_t needed_bytes, const Effort& effort, EngineResult& result);
