@@ -1,8 +1,9 @@
 #include "split_mapf/pipeline/instance_features.h"
 
 #include <algorithm>
-#include <numeric>
 #include <vector>
+
+#include <boost/pending/disjoint_sets.hpp>
 
 #include "solver/search/eviction_search.h"
 #include "solver/search/path_table.h"
@@ -23,30 +24,6 @@ Path shortestPath(const Instance& instance, std::uint32_t robot) {
   return path;
 }
 
-/// Robots in groups that only ever grow together.
-class Groups {
- public:
-  explicit Groups(std::uint32_t robots) : leader_(robots), size_(robots, 1) {
-    std::iota(leader_.begin(), leader_.end(), 0U);
-  }
-  std::uint32_t leaderOf(std::uint32_t robot) {
-    while (leader_[robot] != robot) robot = leader_[robot] = leader_[leader_[robot]];
-    return robot;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = leaderOf(a);
-    b = leaderOf(b);
-    if (a == b) return;
-    leader_[b] = a;
-    size_[a] += size_[b];
-  }
-  std::uint32_t largest() const { return *std::max_element(size_.begin(), size_.end()); }
-
- private:
-  std::vector<std::uint32_t> leader_;
-  std::vector<std::uint32_t> size_;
-};
-
 }  // namespace
 
 InstanceFeatures measureFeatures(const Instance& instance) {
@@ -56,16 +33,21 @@ InstanceFeatures measureFeatures(const Instance& instance) {
   features.makespan_bound = makespanLowerBound(instance);
   features.sum_bound = sumOfCostsLowerBound(instance);
   PathTable table(instance.graph().size());
-  Groups groups(instance.robots());
+  std::vector<std::uint32_t> rank(instance.robots(), 0);
+  std::vector<std::uint32_t> parent(instance.robots());
+  boost::disjoint_sets<std::uint32_t*, std::uint32_t*> groups(rank.data(), parent.data());
+  for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) groups.make_set(robot);
   for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {
     const Path path = shortestPath(instance, robot);
     for (const std::uint32_t other : robotsInTheWay(table, path)) {
       ++features.conflicting;
-      groups.join(other, robot);
+      groups.union_set(other, robot);
     }
     table.insert(robot, path);
   }
-  features.largest_group = groups.largest();
+  std::vector<std::uint32_t> size(instance.robots(), 0);
+  for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) ++size[groups.find_set(robot)];
+  features.largest_group = *std::max_element(size.begin(), size.end());
   return features;
 }
 
