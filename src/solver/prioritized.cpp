@@ -2,69 +2,123 @@
 
 #include <algorithm>
 #include <memory>
-#include <unordered_set>
+#include <string>
 #include <utility>
 #include <vector>
 
-#include <boost/functional/hash.hpp>
-
+#include "solver/prioritized/effort.h"
+#include "solver/prioritized/placing.h"
+#include "solver/prioritized/repair.h"
+#include "solver/search/replan_singly.h"
 #include "solver/search/robot_order.h"
-#include "solver/search/safe_interval_search.h"
 #include "split_mapf/core/option_values.h"
 #include "split_mapf/core/random.h"
 
 namespace split_mapf {
 namespace {
 
-using Order = std::vector<std::uint32_t>;
+// Fewer robots get as many neighbourhoods as these.
+constexpr std::uint32_t kFewRobots = 100;
+// Sum of costs: steps that the first horizon exceeds the greatest shortest path by.
+constexpr std::uint32_t kSlack = 5;
+// Horizons that the repair tries, and the least growth from one to the next.
+constexpr int kHorizons = 6;
+constexpr std::uint32_t kLeastGrowth = 5;
 
-/// Orders that were tried. Gives up on finding a new one after a while, as few robots have few
-/// orders.
-class TriedOrders {
+std::vector<std::string> orders() {
+  std::vector<std::string> names = robotOrders();
+  names.insert(names.begin(), "objective");
+  return names;
+}
+
+/// One run of the solver.
+class PrioritizedRun {
  public:
-  bool makeNew(Order& order, RandomEngine& engine) {
-    constexpr int kMostShuffles = 100;
-    for (int i = 0; i < kMostShuffles; ++i) {
-      if (hashes_.insert(boost::hash_range(order.begin(), order.end())).second) return true;
-      shuffle(order, engine);
-    }
-    return false;
+  PrioritizedRun(const Instance& instance, const PrioritizedSolver::Settings& settings,
+                 Objective objective, std::uint64_t seed, Effort& effort)
+      : instance_(instance),
+        settings_(settings),
+        objective_(objective),
+        seed_(seed),
+        effort_(effort),
+        table_(instance.graph().size()) {
+    plan_.paths.resize(instance.robots());
   }
+
+  /// @return whether plan() is valid.
+  bool run();
+  void polish();
+  const Plan& plan() const { return plan_; }
+  std::uint64_t tries() const { return tries_; }
+  const std::string& failure() const { return failure_; }
 
  private:
-  std::unordered_set<std::size_t> hashes_;
+  std::vector<std::uint32_t> order() const;
+  bool repair(const std::vector<std::uint32_t>& left_over, std::uint32_t horizon);
+
+  const Instance& instance_;
+  const PrioritizedSolver::Settings& settings_;
+  Objective objective_;
+  std::uint64_t seed_;
+  Effort& effort_;
+  PathTable table_;
+  Plan plan_;
+  std::uint64_t tries_ = 0;
+  std::string failure_;
 };
 
-enum class Attempt { kDone, kBlocked, kInterrupted, kExhausted };
-
-/// Plans all robots in one order; `failed` is the position of the robot that found no path.
-Attempt planInOrder(const Instance& instance, const Order& order, const Deadline& deadline,
-                    SafeIntervalSearch& search, PathTable& table, std::uint64_t limit,
-                    SolveResult& result, std::size_t& failed) {
-  table.clear();
-  Plan plan;
-  plan.paths.resize(instance.robots());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    if (deadline.expired()) return Attempt::kInterrupted;
-    SearchQuery query;
-    query.robot = order[i];
-    query.start = instance.start(order[i]);
-    query.distances = &instance.distances(order[i]);
-    query.others = &table;
-    query.mode = OthersAre::kObstacles;
-    SearchAnswer answer = search.search(query, deadline);
-    result.low_level_expansions += answer.expansions;
-    if (answer.interrupted) return Attempt::kInterrupted;
-    if (limit > 0 && result.low_level_expansions > limit) return Attempt::kExhausted;
-    if (answer.path.empty()) {
-      failed = i;
-      return Attempt::kBlocked;
-    }
-    table.insert(order[i], answer.path);
-    plan.paths[order[i]] = std::move(answer.path);
+std::vector<std::uint32_t> PrioritizedRun::order() const {
+  RandomEngine engine(seed_);
+  std::string name = settings_.order;
+  if (name == "objective") {
+    name = objective_ == Objective::kMakespan ? "longest_first" : "shortest_first";
   }
-  result.plan = std::move(plan);
-  return Attempt::kDone;
+  return makeOrder(instance_, name, engine);
+}
+
+bool PrioritizedRun::run() {
+  const std::uint32_t slack = objective_ == Objective::kMakespan ? 0 : kSlack;
+  const std::uint32_t horizon = makespanLowerBound(instance_) + slack;
+  Placing placing(instance_, effort_, table_, plan_.paths);
+  const std::vector<std::uint32_t> left_over = placing.run(order(), settings_.demotions, horizon);
+  if (effort_.stopped()) return false;
+  if (left_over.empty()) return true;
+  if (settings_.repair) return repair(left_over, horizon);
+  failure_ = std::to_string(left_over.size()) + " robots found no path around the others";
+  return false;
+}
+
+bool PrioritizedRun::repair(const std::vector<std::uint32_t>& left_over, std::uint32_t horizon) {
+  Repair repair(instance_, seed_, effort_, table_, plan_.paths);
+  if (!repair.place(left_over, horizon)) return false;
+  const std::uint64_t patience =
+      std::max<std::uint64_t>(1, settings_.patience * std::max(kFewRobots, instance_.robots()));
+  bool repaired = false;
+  for (int i = 0; i < kHorizons && !repaired && !effort_.stopped(); ++i) {
+    repaired = repair.run(patience, horizon);
+    horizon += std::max(kLeastGrowth, horizon / 4);
+  }
+  tries_ = repair.tries();
+  if (!repaired) {
+    failure_ = std::to_string(repair.collidingPairs()) + " pairs of robots still collide";
+  }
+  return repaired;
+}
+
+void PrioritizedRun::polish() {
+  EvictionSearch search(instance_.graph());
+  const FindPath find = [&](std::uint32_t robot, std::uint32_t latest_arrival) {
+    EvictionQuery query;
+    query.start = instance_.start(robot);
+    query.distances = &instance_.distances(robot);
+    query.placed = &table_;
+    query.latest_arrival = latest_arrival;
+    EvictionAnswer answer = search.search(query, effort_.deadline());
+    effort_.spend(answer.expansions, answer.interrupted);
+    return std::move(answer.path);
+  };
+  replanSingly(
+      instance_, settings_.polish, find, [&] { return effort_.stopped(); }, plan_.paths, table_);
 }
 
 }  // namespace
@@ -74,52 +128,54 @@ PrioritizedSolver::PrioritizedSolver(const SolverOptions& options)
       seed_(options.seed),
       expansion_limit_(options.expansion_limit) {
   const OptionValues values(options.values);
-  settings_.order = values.choice("order", settings_.order, robotOrders());
-  settings_.restarts = values.count("restarts", settings_.restarts);
+  settings_.order = values.choice("order", settings_.order, orders());
+  settings_.demotions = values.count("demotions", settings_.demotions);
+  settings_.repair = values.flag("repair", settings_.repair);
+  settings_.patience = values.count("patience", settings_.patience);
+  settings_.polish = values.count("polish", settings_.polish);
 }
 
 SolverInfo PrioritizedSolver::info() {
   const Settings defaults;
   return {
       "prioritized",
-      "prioritised planning with restarts: fast, incomplete",
-      {{"order", defaults.order, "shortest_first, longest_first, random or given"},
-       {"restarts", std::to_string(defaults.restarts),
-        "how often a robot that finds no path may move to the front"}},
+      "prioritised planning with demotion and repair: fast, incomplete",
+      {{"order", defaults.order,
+        "objective (shortest first for sum of costs, else longest first), shortest_first, "
+        "longest_first, random or given"},
+       {"demotions", std::to_string(defaults.demotions),
+        "how often a robot that is in the way of another may be planned again after it"},
+       {"repair", defaults.repair ? "true" : "false",
+        "let robots that find no path collide and replan groups of them until nobody does"},
+       {"patience", std::to_string(defaults.patience),
+        "groups a robot without progress before the repair allows longer paths"},
+       {"polish", std::to_string(defaults.polish),
+        "passes over the plan found that give robots earlier paths"}},
       [](const SolverOptions& options) { return std::make_unique<PrioritizedSolver>(options); }};
 }
 
 SolveResult PrioritizedSolver::solve(const Instance& instance, const Deadline& deadline) const {
-  SolveResult result;
   if (const auto robot = findCutOffRobot(instance)) return cutOffResult(*robot);
+  Effort effort(expansion_limit_, deadline);
+  PrioritizedRun run(instance, settings_, objective_, seed_, effort);
+  SolveResult result;
   result.lower_bound = lowerBound(instance, objective_);
-  RandomEngine engine(seed_);
-  SafeIntervalSearch search(instance.graph());
-  PathTable table(instance.graph().size());
-  TriedOrders tried;
-  Order order = makeOrder(instance, settings_.order, engine);
-  for (std::uint64_t restart = 0;; ++restart) {
-    if (!tried.makeNew(order, engine) || restart > settings_.restarts) {
-      result.termination = Termination::kNoPlanFound;
-      result.message = "prioritised planning failed in " + std::to_string(restart) +
-                       " orders of the robots; it is incomplete: try another solver";
-      return result;
-    }
-    ++result.high_level_nodes;
-    std::size_t failed = 0;
-    const Attempt attempt =
-        planInOrder(instance, order, deadline, search, table, expansion_limit_, result, failed);
-    if (attempt == Attempt::kDone) break;
-    if (attempt == Attempt::kExhausted) return outOfExpansions(expansion_limit_);
-    if (attempt == Attempt::kInterrupted) {
-      result.termination = interruptionOf(deadline);
-      return result;
-    }
-    const auto place = order.begin() + static_cast<std::ptrdiff_t>(failed);
-    std::rotate(order.begin(), place, place + 1);
+  const bool planned = run.run();
+  if (!planned && effort.exhausted()) return outOfExpansions(expansion_limit_);
+  if (planned) run.polish();
+  result.high_level_nodes = 1 + run.tries();
+  result.low_level_expansions = effort.expansions();
+  if (planned) {
+    result.termination = Termination::kSolved;
+    result.plan = run.plan();
+    certifyByLowerBound(result, objective_, "prioritized");
+  } else if (effort.stopped()) {
+    result.termination = interruptionOf(deadline);
+  } else {
+    result.termination = Termination::kNoPlanFound;
+    result.message =
+        "prioritised planning failed: " + run.failure() + "; it is incomplete: try another solver";
   }
-  result.termination = Termination::kSolved;
-  certifyByLowerBound(result, objective_, "prioritized");
   return result;
 }
 

@@ -8,17 +8,26 @@
 
 namespace split_mapf {
 
-/// Prioritised planning: one robot after another, each on the earliest path that avoids all
-/// robots planned before it. A robot that finds none moves to the front and planning starts again;
-/// no order is tried twice. Fast and good where there is room; incomplete: it may fail on a
-/// solvable instance and then says kNoPlanFound, never kUnsolvable.
-/// Source: Erdmann and Lozano-Perez, Algorithmica 1987; the restart after Andreychuk and Yakovlev,
-/// AAMAS 2018. Cost: about one safe interval search a robot.
+/// Prioritised planning with demotion and repair: one robot after another, each on the earliest
+/// path that avoids all robots planned before it. A robot that finds none demotes those in its way:
+/// they are planned again last. Who cannot be placed so gets the path with the fewest
+/// collisions, and a large-neighbourhood search plans groups of colliding robots anew until nobody
+/// collides. Then robots that are late are planned again, one at a time.
+/// Fast and good where there is room; incomplete: it may fail on a solvable instance and then says
+/// kNoPlanFound, never kUnsolvable (a robot that is cut off excepted).
+/// Source: Erdmann and Lozano-Perez, Algorithmica 1987; demotion in the spirit of Crombez et al.,
+/// SoCG 2021; repair after Li et al., AAAI 2022. Deviations: nobody arrives later than a horizon,
+/// at first the greatest shortest path or little more, which grows while the repair fails; see
+/// CollidingNeighbourhoodPicker. Cost: about one search a robot where there is room.
 class PrioritizedSolver : public Solver {
  public:
   struct Settings {
-    std::string order = "shortest_first";
-    std::uint64_t restarts = 1000;
+    std::string order = "objective";
+    std::uint64_t demotions = 10;  ///< how often a robot may be demoted
+    bool repair = true;
+    /// Neighbourhoods a robot without progress before the horizon grows; it grows a few times.
+    std::uint64_t patience = 5;
+    std::uint64_t polish = 1;  ///< passes over the plan found that give robots earlier paths
   };
   /// @throws OptionError for an option value out of range.
   explicit PrioritizedSolver(const SolverOptions& options);

@@ -1,28 +1,14 @@
 #include "solver/search/neighbourhood.h"
 
 #include <algorithm>
-#include <numeric>
+
+#include "solver/search/drawing.h"
 
 namespace split_mapf {
 namespace {
 
 constexpr double kFirstWeight = 1.0;
 constexpr double kForgetting = 0.02;
-// No way and no size falls below this share of the average weight, so that each is tried at times.
-constexpr double kLeastShare = 0.2;
-
-template <std::size_t N>
-std::size_t drawByWeight(const std::array<double, N>& weights, RandomEngine& engine) {
-  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-  const double floor = kLeastShare * sum / N;
-  constexpr std::uint64_t kSteps = 1U << 20U;
-  double left = static_cast<double>(drawBelow(engine, kSteps)) / kSteps * (sum + N * floor);
-  for (std::size_t i = 0; i + 1 < N; ++i) {
-    left -= weights[i] + floor;
-    if (left < 0) return i;
-  }
-  return N - 1;
-}
 
 }  // namespace
 
