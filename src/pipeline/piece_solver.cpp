@@ -42,10 +42,11 @@ std::vector<SolveResult> PieceSolver::solve(const std::vector<PieceTask>& tasks,
   const std::size_t first_row = rows.size();
   rows.resize(first_row + tasks.size());
   std::vector<Executor::Job> jobs(tasks.size());
+  const std::uint32_t threads = threadsEach(tasks.size());
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     jobs[i].expected_effort = expectedEffort(*tasks[i].leaf);
     jobs[i].run = [&, i] {
-      results[i] = solveOne(tasks[i], deadline, rows[first_row + i]);
+      results[i] = solveOne(tasks[i], threads, deadline, rows[first_row + i]);
       if (endsTheRun(results[i].termination)) stop->request();
       log_.pieceDone();
     };
@@ -64,8 +65,14 @@ std::vector<std::string> PieceSolver::rescuers() const {
   return result;
 }
 
-SolveResult PieceSolver::solveOne(const PieceTask& task, const Deadline& deadline,
-                                  SubproblemReport& row) const {
+std::uint32_t PieceSolver::threadsEach(std::size_t tasks) const {
+  const std::uint32_t asked = request_.asked.threads;
+  const std::uint32_t all = asked == 0 ? executor_.threads() : std::min(asked, executor_.threads());
+  return tasks > 0 && tasks < all ? all / static_cast<std::uint32_t>(tasks) : 1;
+}
+
+SolveResult PieceSolver::solveOne(const PieceTask& task, std::uint32_t threads,
+                                  const Deadline& deadline, SubproblemReport& row) const {
   const Deadline::Clock::time_point begin = Deadline::Clock::now();
   const Instance& piece = *task.leaf->instance;
   row.phase = task.leaf->phase;
@@ -79,6 +86,7 @@ SolveResult PieceSolver::solveOne(const PieceTask& task, const Deadline& deadlin
     try {
       SolverOptions options = request_.solver_options;
       if (row.solver != request_.solver) options.values.clear();
+      options.threads = threads;
       if (task.shares > 0) options.expansion_limit = task.shares * usualEffort(task, piece);
       result = solvers_.create(row.solver, options)->solve(piece, deadline);
       row.horizon = makespanLowerBound(piece);

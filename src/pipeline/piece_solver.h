@@ -39,7 +39,9 @@ class PieceSolver {
   std::vector<std::string> rescuers() const;
 
  private:
-  SolveResult solveOne(const PieceTask& task, const Deadline& deadline,
+  /// Where there are fewer tasks than threads a task may use several.
+  std::uint32_t threadsEach(std::size_t tasks) const;
+  SolveResult solveOne(const PieceTask& task, std::uint32_t threads, const Deadline& deadline,
                        SubproblemReport& row) const;
 
   const CheckedRequest& request_;

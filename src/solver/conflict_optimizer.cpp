@@ -29,7 +29,8 @@ std::vector<std::uint32_t> firstQueue(const Instance& instance, std::uint64_t se
 ConflictOptimizerSolver::ConflictOptimizerSolver(const SolverOptions& options)
     : objective_(options.objective),
       seed_(options.seed),
-      expansion_limit_(options.expansion_limit) {
+      expansion_limit_(options.expansion_limit),
+      threads_(std::max(1U, options.threads)) {
   const OptionValues values(options.values);
   settings_.patience = values.count("patience", settings_.patience);
   settings_.slack = values.count("slack", settings_.slack);
@@ -54,7 +55,7 @@ SolveResult ConflictOptimizerSolver::solve(const Instance& instance,
   SolveResult result;
   if (const auto robot = findCutOffRobot(instance)) return cutOffResult(*robot);
   result.lower_bound = lowerBound(instance, objective_);
-  Placement placement(instance, firstQueue(instance, seed_), seed_);
+  Placement placement(instance, firstQueue(instance, seed_), seed_, threads_);
   const std::uint32_t bound = makespanLowerBound(instance);
   Placement::Effort effort;
   effort.patience =

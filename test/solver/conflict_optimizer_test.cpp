@@ -29,6 +29,23 @@ TEST(ConflictOptimizer, ACrowdKeepsTheMakespanBoundAndIsCertified) {
   EXPECT_EQ(result.certified_by, "conflict_optimizer");
 }
 
+TEST(ConflictOptimizer, ThreadsDoNotChangeThePlan) {
+  const Instance instance = test::generatedInstance(24, 0.2, 150);
+  for (const Objective objective : {Objective::kMakespan, Objective::kSumOfCosts}) {
+    SolverOptions options;
+    options.objective = objective;
+    const SolveResult alone = ConflictOptimizerSolver(options).solve(instance, Deadline(20));
+    ASSERT_TRUE(alone.plan);
+    for (const std::uint32_t threads : {2U, 8U}) {
+      options.threads = threads;
+      const SolveResult shared = ConflictOptimizerSolver(options).solve(instance, Deadline(20));
+      ASSERT_TRUE(shared.plan);
+      EXPECT_EQ(shared.plan->paths, alone.plan->paths) << threads << " threads";
+      EXPECT_EQ(shared.low_level_expansions, alone.low_level_expansions);
+    }
+  }
+}
+
 TEST(ConflictOptimizer, AHorizonOutOfReachGivesWayToALongerOne) {
   // One of the two has to wait in the siding: the bound of 4 steps can't be kept.
   const Instance instance =

@@ -13,7 +13,8 @@ namespace split_mapf {
 /// certified; a horizon whose effort is spent gives way to a longer one.
 /// Source: Crombez et al. (team Shadoks), SoCG 2021. Deviations: safe intervals with evictions
 /// instead of a table over cells and steps, so memory does not grow with the horizon; longer
-/// horizons keep what is placed; for sum of costs the horizon starts with some slack.
+/// horizons keep what is placed; for sum of costs the horizon starts with some slack; robots are
+/// searched for in batches, side by side (SolverOptions::threads), see docs/algorithms.md.
 /// Incomplete: it may say kNoPlanFound on a solvable instance, never kUnsolvable (a robot that is
 /// cut off excepted). Cost: about one search a robot where there is room.
 class ConflictOptimizerSolver : public Solver {
@@ -34,6 +35,7 @@ class ConflictOptimizerSolver : public Solver {
   Objective objective_;
   std::uint64_t seed_;
   std::uint64_t expansion_limit_;
+  std::uint32_t threads_;
   Settings settings_;
 };
 

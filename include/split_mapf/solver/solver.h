@@ -33,6 +33,8 @@ struct SolverOptions {
   /// Expanded states of single-robot searches after which the solver gives up with kNoPlanFound; 0:
   /// none. Unlike a deadline it cuts the search at the same place on every machine.
   std::uint64_t expansion_limit = 0;
+  /// Threads that one call may use, >= 1. The plan does not depend on it.
+  std::uint32_t threads = 1;
   std::map<std::string, std::string> values;  ///< the solver's own options, by name
 };
 

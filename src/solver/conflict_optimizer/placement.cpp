@@ -9,24 +9,29 @@ namespace {
 // Keeps the weight of a whole path within 32 bits.
 constexpr std::uint32_t kMostQueued = 1000;
 constexpr std::uint32_t kLongestDelay = 20;
+constexpr std::size_t kLargestBatch = 32;
+// A batch of whose robots more than one in so many has to wait for the next was too large.
+constexpr std::size_t kPostponedOneIn = 5;
 
 }  // namespace
 
 Placement::Placement(const Instance& instance, const std::vector<std::uint32_t>& queue,
-                     std::uint64_t seed)
+                     std::uint64_t seed, std::uint32_t threads)
     : instance_(instance),
       engine_(seed),
-      search_(instance.graph()),
+      team_(threads),
+      searches_(threads, EvictionSearch(instance.graph())),
       table_(instance.graph().size()),
       queued_(instance.robots(), 0),
-      weights_(instance.robots(), 1) {
+      weights_(instance.robots(), 1),
+      placed_in_(instance.robots(), 0) {
   plan_.paths.resize(instance.robots());
   for (const std::uint32_t robot : queue) requeue(robot);
 }
 
 Placement::Placement(const Instance& instance, const Plan& plan, std::uint32_t horizon,
                      std::uint64_t seed)
-    : Placement(instance, {}, seed) {
+    : Placement(instance, {}, seed, 1) {
   for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {
     const Path& path = plan.paths[robot];
     if (path.size() - 1 > horizon) {
@@ -58,37 +63,85 @@ std::uint32_t Placement::drawDeparture(std::uint32_t robot, std::uint32_t horizo
   return static_cast<std::uint32_t>(drawBelow(engine_, std::min(slack, kLongestDelay) + 1));
 }
 
+void Placement::drawBatch(std::uint32_t horizon, const Effort& effort) {
+  batch_.resize(std::min(batch_size_, queue_.size()));
+  for (std::size_t i = 0; i < batch_.size(); ++i) {
+    batch_[i].robot = queue_[i];
+    batch_[i].departure = drawDeparture(queue_[i], horizon, effort.delayed_one_in);
+  }
+  ++batch_number_;
+}
+
+void Placement::searchBatch(std::uint32_t horizon, const Deadline& deadline) {
+  team_.forEach(static_cast<std::uint32_t>(batch_.size()),
+                [&](std::uint32_t i, std::uint32_t member) {
+                  Candidate& candidate = batch_[i];
+                  EvictionQuery query;
+                  query.placed = &table_;
+                  query.weights = &weights_;
+                  query.latest_arrival = horizon;
+                  query.start = instance_.start(candidate.robot);
+                  query.distances = &instance_.distances(candidate.robot);
+                  query.departure = candidate.departure;
+                  candidate.answer = searches_[member].search(query, deadline);
+                });
+}
+
+bool Placement::place(Candidate& candidate) {
+  Path& path = candidate.answer.path;
+  const std::vector<std::uint32_t> in_the_way = robotsInTheWay(table_, path);
+  for (const std::uint32_t other : in_the_way) {
+    if (placed_in_[other] == batch_number_) return false;
+  }
+  for (const std::uint32_t other : in_the_way) {
+    remove(other);
+    requeue(other);
+  }
+  table_.insert(candidate.robot, path);
+  placed_in_[candidate.robot] = batch_number_;
+  plan_.paths[candidate.robot] = std::move(path);
+  return true;
+}
+
+void Placement::adaptBatch(std::size_t postponed) {
+  if (kPostponedOneIn * postponed > batch_.size()) {
+    batch_size_ = std::max<std::size_t>(1, batch_size_ / 2);
+  } else {
+    batch_size_ = std::min(batch_size_ + 1, kLargestBatch);
+  }
+}
+
 Placement::Outcome Placement::run(std::uint32_t horizon, const Effort& effort,
                                   const Deadline& deadline) {
-  EvictionQuery query;
-  query.placed = &table_;
-  query.weights = &weights_;
-  query.latest_arrival = horizon;
   std::size_t fewest = queue_.size();
-  for (std::uint64_t left = effort.patience; !queue_.empty(); --left) {
-    if (queue_.size() < fewest) {
-      fewest = queue_.size();
-      left = effort.patience;
-    }
+  std::vector<std::uint32_t> postponed;
+  for (std::uint64_t left = effort.patience; !queue_.empty();) {
     if (left == 0) return Outcome::kSpent;
     if (effort.expansion_limit > 0 && expansions_ > effort.expansion_limit) {
       return Outcome::kExhausted;
     }
     if (deadline.expired()) return Outcome::kInterrupted;
-    const std::uint32_t robot = queue_.front();
-    query.start = instance_.start(robot);
-    query.distances = &instance_.distances(robot);
-    query.departure = drawDeparture(robot, horizon, effort.delayed_one_in);
-    EvictionAnswer answer = search_.search(query, deadline);
-    expansions_ += answer.expansions;
-    if (answer.interrupted) return Outcome::kInterrupted;
-    queue_.pop_front();
-    for (const std::uint32_t other : robotsInTheWay(table_, answer.path)) {
-      remove(other);
-      requeue(other);
+    drawBatch(horizon, effort);
+    searchBatch(horizon, deadline);
+    queue_.erase(queue_.begin(), queue_.begin() + static_cast<std::ptrdiff_t>(batch_.size()));
+    postponed.clear();
+    bool interrupted = false;
+    for (Candidate& candidate : batch_) {
+      expansions_ += candidate.answer.expansions;
+      interrupted = interrupted || candidate.answer.interrupted;
+      if (interrupted || !place(candidate)) {
+        postponed.push_back(candidate.robot);
+      } else if (left > 0) {
+        --left;
+      }
     }
-    table_.insert(robot, answer.path);
-    plan_.paths[robot] = std::move(answer.path);
+    queue_.insert(queue_.begin(), postponed.begin(), postponed.end());
+    if (interrupted) return Outcome::kInterrupted;
+    adaptBatch(postponed.size());
+    if (queue_.size() < fewest) {
+      fewest = queue_.size();
+      left = effort.patience;
+    }
   }
   return Outcome::kDone;
 }

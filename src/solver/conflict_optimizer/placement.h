@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/search/eviction_search.h"
+#include "solver/search/thread_team.h"
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"
@@ -14,6 +15,9 @@ namespace split_mapf {
 
 /// The state of a conflict optimisation: who is placed and where, who waits, what everybody weighs.
 /// The placed paths never conflict. Not thread-safe.
+/// The next few robots of the queue are searched for side by side, against what is placed, and then
+/// placed one after another; who meets one placed before it in the same batch waits for the next.
+/// Where that happens often, batches are small. None of it depends on the number of threads.
 class Placement {
  public:
   /// Placings that depart late, once a horizon has proved hard.
@@ -21,7 +25,8 @@ class Placement {
   enum class Outcome { kDone, kSpent, kExhausted, kInterrupted };
 
   /// @param queue  everybody, in the order of the first placing. The instance outlives this object.
-  Placement(const Instance& instance, const std::vector<std::uint32_t>& queue, std::uint64_t seed);
+  Placement(const Instance& instance, const std::vector<std::uint32_t>& queue, std::uint64_t seed,
+            std::uint32_t threads);
 
   /// Starts from a plan: everybody who arrives by `horizon` is placed, the others wait.
   /// @pre the plan is valid and its paths end at their arrivals.
@@ -42,18 +47,32 @@ class Placement {
   const Plan& plan() const { return plan_; }
 
  private:
+  struct Candidate {
+    std::uint32_t robot = 0;
+    std::uint32_t departure = 0;
+    EvictionAnswer answer;
+  };
+  void drawBatch(std::uint32_t horizon, const Effort& effort);
+  void searchBatch(std::uint32_t horizon, const Deadline& deadline);
+  bool place(Candidate& candidate);
+  void adaptBatch(std::size_t postponed);
   void remove(std::uint32_t robot);
   void requeue(std::uint32_t robot);
   std::uint32_t drawDeparture(std::uint32_t robot, std::uint32_t horizon, std::uint32_t one_in);
 
   const Instance& instance_;
   RandomEngine engine_;
-  EvictionSearch search_;
+  ThreadTeam team_;
+  std::vector<EvictionSearch> searches_;  // one a thread
   PathTable table_;
   Plan plan_;                           // an empty path: waits
   std::deque<std::uint32_t> queue_;     // next first
   std::vector<std::uint32_t> queued_;   // how often, by robot
   std::vector<std::uint32_t> weights_;  // by robot
+  std::vector<Candidate> batch_;
+  std::vector<std::uint32_t> placed_in_;  // by robot: number of the batch that placed it last
+  std::uint32_t batch_number_ = 0;
+  std::size_t batch_size_ = 1;
   std::uint64_t expansions_ = 0;
 };
 
