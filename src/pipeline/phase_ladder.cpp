@@ -21,15 +21,15 @@ bool intersects(const std::vector<std::uint32_t>& sorted, const std::vector<std:
 
 }  // namespace
 
-PhaseLadder::PhaseLadder(SpaceSplit& split, PieceSolver& solver, RunLog& log, TimeSplitOptions time,
-                         bool check_seams, const Deadline& deadline)
+PhaseLadder::PhaseLadder(SpaceSplit& split, PieceSolver& solver, RunLog& log, Options options,
+                         const Deadline& deadline)
     : split_(split),
       solver_(solver),
       log_(log),
-      time_(std::move(time)),
-      check_seams_(check_seams),
-      deadline_(deadline),
-      rescuers_(solver.rescuers()) {
+      time_(std::move(options.time)),
+      check_seams_(options.check_seams),
+      deadline_(deadline) {
+  if (options.rescue) rescuers_ = solver.rescuers();
   time_.checker = nullptr;
 }
 
@@ -64,18 +64,22 @@ PhaseLadder::Piece PhaseLadder::makePiece(RegionPiece region, std::uint32_t shar
   std::iota(everyone.begin(), everyone.end(), 0U);
   std::optional<Decomposition> tree;
   if (in_time && time_.ratios.size() > 1) {
-    TimeSplitOptions options = time_;
+    TimeSplitOptions cut = time_;
     std::optional<SolvabilityChecker> checker;
     const Graph& graph = region.instance->graph();
     if (check_seams_ && region.robots.size() > graph.size() / kCrowdedCellsARobot) {
-      options.checker = &checker.emplace(graph);
+      cut.checker = &checker.emplace(graph);
     }
-    tree = splitTime(*region.instance, options, deadline_);
+    tree = splitTime(*region.instance, cut, deadline_);
   }
   if (!tree) tree = Decomposition::leaf(*region.instance, std::move(everyone));
+  PieceSequence::Options options;
+  options.time = time_;
+  options.last_share = shares;
+  if (in_time) options.rescuers = rescuers_;
   PieceSequence sequence(
-      embed(std::move(*tree), region.robots, region.map, region.phase, region.region), time_,
-      shares, false);
+      embed(std::move(*tree), region.robots, region.map, region.phase, region.region),
+      std::move(options));
   return {std::move(region), std::move(sequence), shares};
 }
 
@@ -90,7 +94,7 @@ bool PhaseLadder::solveOpenPieces(std::vector<SubproblemReport>& rows, LadderOut
       for (std::size_t i = first; i < tasks.size(); ++i) {
         if (piece.rescuer > 0) {
           tasks[i].solver = rescuers_[piece.rescuer - 1];
-        } else if (!rescuers_.empty()) {
+        } else if (tasks[i].solver.empty() && !rescuers_.empty()) {
           tasks[i].least_effort = kLeastEffort;
         }
       }

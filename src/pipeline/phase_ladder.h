@@ -11,17 +11,20 @@
 namespace split_mapf {
 
 /// Solves the regions of all phases of a space split in one pool, each cut in time where wanted,
-/// and never gets stuck. A region whose pieces fail down to one gets other intermediate states;
-/// then it is merged with its neighbour for that phase; then it is given to other solvers
-/// (PieceSolver::rescuers()); then merged on, up to the whole graph; then two phases become one; in
-/// the end there is one piece, the whole instance, without a limit. Deterministic as PieceLadder
-/// is.
+/// and never gets stuck. A region whose pieces fail down to one (see PieceSequence) gets other
+/// intermediate states; then it is merged with its neighbour for that phase; then it is given to
+/// other solvers (PieceSolver::rescuers()); then merged on, up to the whole graph; then two phases
+/// become one; in the end there is one piece, the whole instance, without a limit. Deterministic as
+/// PieceLadder is.
 class PhaseLadder {
  public:
-  /// @param time  how to cut each region's piece in time; its checker is not used.
-  /// @param check_seams  whether the seams of crowded pieces are checked for solvability.
-  PhaseLadder(SpaceSplit& split, PieceSolver& solver, RunLog& log, TimeSplitOptions time,
-              bool check_seams, const Deadline& deadline);
+  struct Options {
+    TimeSplitOptions time;    ///< how to cut each region's piece in time; its checker is not used
+    bool check_seams = true;  ///< whether seams of crowded pieces are checked for solvability
+    bool rescue = true;       ///< whether other solvers are called where the request's own fails
+  };
+  PhaseLadder(SpaceSplit& split, PieceSolver& solver, RunLog& log, Options options,
+              const Deadline& deadline);
 
   /// @pre split.plan() was true.
   LadderOutcome climb(std::vector<SubproblemReport>& rows);

@@ -1,12 +1,16 @@
 #include "pipeline/piece_ladder.h"
 
 #include <optional>
+#include <utility>
 
 namespace split_mapf {
 
 PieceLadder::Outcome PieceLadder::climb(const Decomposition& sequence,
                                         std::vector<SubproblemReport>& rows) {
-  PieceSequence pieces(sequence, options_, 0, true);
+  PieceSequence::Options options;
+  options.time = options_;
+  options.number_phases = true;
+  PieceSequence pieces(sequence, std::move(options));
   Outcome outcome;
   while (pieces.state() == PieceSequence::State::kOpen) {
     std::vector<PieceTask> tasks;

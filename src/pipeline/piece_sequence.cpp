@@ -25,12 +25,9 @@ Decomposition join(const Decomposition& left, const Decomposition& right) {
 
 }  // namespace
 
-PieceSequence::PieceSequence(const Decomposition& sequence, TimeSplitOptions options,
-                             std::uint32_t last_share, bool number_phases)
-    : options_(std::move(options)), last_share_(last_share), number_phases_(number_phases) {
-  for (const Decomposition* leaf : leavesOf(sequence)) {
-    pieces_.push_back({*leaf, 1, true, {}, false});
-  }
+PieceSequence::PieceSequence(const Decomposition& sequence, Options options)
+    : options_(std::move(options)) {
+  for (const Decomposition* leaf : leavesOf(sequence)) pieces_.emplace_back().leaf = *leaf;
 }
 
 PieceSequence::State PieceSequence::state() const {
@@ -46,7 +43,8 @@ void PieceSequence::addOpenTasks(std::vector<PieceTask>& tasks) const {
     if (piece.plan) continue;
     PieceTask& task = tasks.emplace_back();
     task.leaf = &piece.leaf;
-    task.shares = isOnePiece() ? last_share_ : piece.shares;
+    task.shares = isOnePiece() ? options_.last_share : piece.shares;
+    if (piece.rescuer > 0) task.solver = options_.rescuers[piece.rescuer - 1];
   }
 }
 
@@ -57,6 +55,7 @@ std::optional<SolveResult> PieceSequence::take(std::vector<SolveResult>& results
     if (piece.plan) continue;
     SolveResult& result = results[next++];
     piece.failed = result.termination != Termination::kSolved;
+    piece.hopeless = result.termination == Termination::kUnsolvable;
     if (!piece.failed) {
       piece.plan = std::move(result.plan);
     } else if (!maySucceedOtherwise(result.termination)) {
@@ -89,7 +88,14 @@ void PieceSequence::repair(const Deadline& deadline) {
     const bool fresh = (left.fresh || !left.failed) && (right.fresh || !right.failed);
     std::vector<Piece> repaired;
     if (fresh) repaired = cutAnew(left, right, deadline);
-    if (repaired.empty()) repaired.push_back(merge(left, right));
+    if (repaired.empty()) {
+      if (askRescuer(left) && askRescuer(right)) {
+        repaired.push_back(std::move(left));
+        repaired.push_back(std::move(right));
+      } else {
+        repaired.push_back(merge(left, right));
+      }
+    }
     std::move(repaired.begin(), repaired.end(), std::back_inserter(next));
   }
   pieces_ = std::move(next);
@@ -101,28 +107,39 @@ std::vector<PieceSequence::Piece> PieceSequence::cutAnew(const Piece& left, cons
   const Decomposition joined = join(left.leaf, right.leaf);
   const double first = makespanLowerBound(*left.leaf.instance) + 1.0;
   const double second = makespanLowerBound(*right.leaf.instance) + 1.0;
-  TimeSplitOptions options = options_;
+  TimeSplitOptions options = options_.time;
   options.ratios = {first / (first + second), second / (first + second)};
-  options.seed = ++options_.seed;
+  options.seed = ++options_.time.seed;
   const std::optional<Decomposition> tree = splitTime(*joined.instance, options, deadline);
   if (!tree || tree->children.size() != 2) return {};
   std::vector<Piece> pieces;
   for (const Decomposition& child : tree->children) {
-    pieces.push_back({embed(child, joined.robots, joined.map, joined.phase, joined.region),
-                      1,
-                      false,
-                      {},
-                      false});
+    Piece& piece = pieces.emplace_back();
+    piece.leaf = embed(child, joined.robots, joined.map, joined.phase, joined.region);
+    piece.fresh = false;
   }
   return pieces;
 }
 
+bool PieceSequence::askRescuer(Piece& piece) const {
+  if (!piece.failed) return true;  // it needs none
+  // Of two pieces made one the named solver's plan is often shorter than another's of each.
+  if (piece.shares == 1 || piece.hopeless) return false;
+  if (piece.rescuer == options_.rescuers.size()) return false;
+  ++piece.rescuer;
+  return true;
+}
+
 PieceSequence::Piece PieceSequence::merge(const Piece& left, const Piece& right) {
-  return {join(left.leaf, right.leaf), 2 * std::max(left.shares, right.shares), false, {}, false};
+  Piece merged;
+  merged.leaf = join(left.leaf, right.leaf);
+  merged.shares = 2 * std::max(left.shares, right.shares);
+  merged.fresh = false;
+  return merged;
 }
 
 void PieceSequence::renumber() {
-  for (std::size_t i = 0; number_phases_ && i < pieces_.size(); ++i) {
+  for (std::size_t i = 0; options_.number_phases && i < pieces_.size(); ++i) {
     pieces_[i].leaf.phase = static_cast<std::uint32_t>(i);
   }
 }

@@ -220,10 +220,12 @@ LadderOutcome PlanRun::climb(const Decomposition& tree) {
     return PieceLadder(piece_solver_, log_, timeSplitOptions(), deadline_)
         .climb(tree, report_.subproblems);
   }
-  const bool check_seams = request_.split_options.check != SplitOptions::Check::kNever;
-  LadderOutcome outcome =
-      PhaseLadder(*space_, piece_solver_, log_, timeSplitOptions(), check_seams, deadline_)
-          .climb(report_.subproblems);
+  PhaseLadder::Options options;
+  options.time = timeSplitOptions();
+  options.check_seams = request_.split_options.check != SplitOptions::Check::kNever;
+  options.rescue = request_.split_options.rescue;
+  LadderOutcome outcome = PhaseLadder(*space_, piece_solver_, log_, std::move(options), deadline_)
+                              .climb(report_.subproblems);
   report_.layout = space_->layout();
   return outcome;
 }

@@ -17,12 +17,9 @@ namespace {
 using ilp::EngineResult;
 using ilp::SearchEnd;
 
-// So many pricing states take about as long as one expansion of a safe interval search and its
-// share of the linear programs.
-constexpr std::uint64_t kStatesAnExpansion = 100;
-// A piece of a split leaves time to its siblings: its proof takes no more than this share of what
-// is left.
-constexpr double kShareOfAPiece = 0.25;
+// Pricing states, and as much work of the simplex method, for one expansion of a limit: several
+// times what takes as long, as proofs are what this solver is asked for.
+constexpr std::uint64_t kStatesAnExpansion = 500;
 
 /// What is known before the engine starts.
 SolveResult unsolvable(const SolvabilityVerdict& verdict, const Grid& grid) {
@@ -151,9 +148,6 @@ SolveResult IlpSolver::solve(const Instance& instance, const Deadline& deadline)
     rounding = [&upper_bound](const std::vector<ilp::UsedPath>& used, std::uint64_t limit) {
       return upper_bound.round(used, limit);
     };
-    if (known && expansion_limit_ > 0) {
-      effort.deadline = deadline.within(kShareOfAPiece * deadline.remainingSec());
-    }
   }
   EngineResult found =
       settings_.engine == "arc_flow"

@@ -73,6 +73,11 @@ const std::vector<SplitOptionInfo>& splitOptions() {
        true},
       {"replan", "3",
        "passes of planning robots anew, one at a time, across the seams after compaction; 0: none"},
+      {"rescue", "true",
+       "space split: whether a piece that the named solver fails on is handed to other solvers "
+       "(the "
+       "rows of `subproblems` say to which); false: the named solver alone, on ever larger pieces",
+       true},
       {"variant", "the objective's own",
        "where robots are at the seams of a time split: makespan (each at its share of its way) or "
        "sum_of_costs (as far as time allows); bisection halves the way again and again, for Kt "
@@ -109,6 +114,7 @@ SplitOptions readSplitOptions(const std::map<std::string, std::string>& values,
   const std::string check = reader.choice("check", "auto", {"auto", "always", "never"});
   if (check == "always") options.check = SplitOptions::Check::kAlways;
   if (check == "never") options.check = SplitOptions::Check::kNever;
+  options.rescue = reader.flag("rescue", options.rescue);
   options.compaction = reader.flag("compaction", options.compaction);
   options.replan_passes = static_cast<std::uint32_t>(
       std::min<std::uint64_t>(reader.count("replan", options.replan_passes), 1000000));

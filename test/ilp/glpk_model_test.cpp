@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -53,6 +54,19 @@ TEST(GlpkModel, SolvesAndTellsPrimalsAndDuals) {
   EXPECT_NEAR(model.primal(1), 1, kTolerance);
   EXPECT_NEAR(model.dual(0), 2, kTolerance);
   EXPECT_NEAR(model.dual(1), -1, kTolerance);
+}
+
+TEST(GlpkModel, CountsItsWorkTheSameEachTime) {
+  std::uint64_t works[2] = {0, 0};
+  for (std::uint64_t& work : works) {
+    GlpkModel model(Deadline(), kMemoryMb);
+    EXPECT_EQ(model.work(), 0U);
+    fillLargeProblem(model, 20);
+    ASSERT_EQ(model.solve(Simplex::kPrimal), LpStatus::kOptimal);
+    work = model.work();
+  }
+  EXPECT_GE(works[0], 20U * (40 + 400)) << "it takes an iteration a row at least";
+  EXPECT_EQ(works[0], works[1]);
 }
 
 TEST(GlpkModel, GoesOnAfterChanges) {

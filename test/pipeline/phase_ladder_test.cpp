@@ -15,6 +15,18 @@
 namespace split_mapf {
 namespace {
 
+/// `lazy`, which never finds a plan, and `prioritized`.
+SolverRegistry lazyAndPrioritized() {
+  SolverRegistry registry;
+  registry.add(PrioritizedSolver::info());
+  registry.add(test::fakeSolver("lazy", [](const Instance&, const Deadline&) {
+    SolveResult failure;
+    failure.termination = Termination::kNoPlanFound;
+    return failure;
+  }));
+  return registry;
+}
+
 TEST(PhaseLadder, PlansInSpaceAndTime) {
   for (const char* split : {"2s", "2x2s", "4s2t", "2x2st(0.4,0.6)", "9s"}) {
     for (const double density : {0.05, 0.3}) {
@@ -68,14 +80,7 @@ TEST(PhaseLadder, MergesRegionsThatFail) {
 
 TEST(PhaseLadder, HandsWhatFailsToAnotherSolver) {
   const Instance instance = test::generatedInstance(24, 0.05, 40, 5);
-  SolverRegistry registry;
-  registry.add(PrioritizedSolver::info());
-  registry.add(test::fakeSolver("lazy", [](const Instance&, const Deadline&) {
-    SolveResult failure;
-    failure.termination = Termination::kNoPlanFound;
-    return failure;
-  }));
-  const PlanReport report = test::planWith(registry, "lazy", instance, "2x2s2t", 2);
+  const PlanReport report = test::planWith(lazyAndPrioritized(), "lazy", instance, "2x2s2t", 2);
   ASSERT_TRUE(report.plan);
   EXPECT_TRUE(validate(instance, *report.plan).empty());
   bool told = false;
@@ -85,6 +90,29 @@ TEST(PhaseLadder, HandsWhatFailsToAnotherSolver) {
   }
   EXPECT_TRUE(told);
   EXPECT_NE(report.message.find("by other solvers"), std::string::npos) << report.message;
+}
+
+TEST(PhaseLadder, HandsOverPiecesOfARegionBeforeItIsOnePiece) {
+  const Instance instance = test::generatedInstance(24, 0.05, 40, 5);
+  const PlanReport report = test::planWith(lazyAndPrioritized(), "lazy", instance, "2x2s4t", 2);
+  ASSERT_TRUE(report.plan);
+  std::size_t solved = 0;
+  for (const SubproblemReport& row : report.subproblems) solved += row.status == "solved" ? 1 : 0;
+  EXPECT_GT(solved, 4 * report.layout->phases.size()) << "regions are still cut in time";
+}
+
+TEST(PhaseLadder, LeavesTheNamedSolverAloneWhereThatIsWanted) {
+  const Instance instance = test::generatedInstance(24, 0.05, 40, 5);
+  const SolverRegistry registry = lazyAndPrioritized();
+  Executor executor(2);
+  PlanRequest request;
+  request.solver = "lazy";
+  request.split = "2x2s2t";
+  request.split_options = {"rescue=false"};
+  const PlanReport report = Planner(registry, executor).plan(instance, request, Deadline());
+  EXPECT_EQ(report.termination, Termination::kNoPlanFound) << report.message;
+  EXPECT_FALSE(report.plan);
+  for (const SubproblemReport& row : report.subproblems) EXPECT_EQ(row.solver, "lazy");
 }
 
 TEST(PhaseLadder, EndsWithTheWholeHoweverManyPiecesFail) {

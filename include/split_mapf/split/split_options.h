@@ -34,6 +34,8 @@ struct SplitOptions {
   Check check = Check::kAuto;
   bool compaction = true;
   std::uint32_t replan_passes = 3;
+  /// Of space splits: whether pieces that the named solver fails on go to other solvers.
+  bool rescue = true;
   /// Of space splits: partition, buffer, lambda1, lambda2, phase_steps; the rest is left alone.
   SpaceSplitOptions space;
 };

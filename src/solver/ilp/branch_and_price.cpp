@@ -165,7 +165,7 @@ SearchEnd BranchAndPrice::run() {
 
 SearchCounts BranchAndPrice::counts() const {
   SearchCounts counts = counts_;
-  counts.expansions = pricing_.expansions();
+  counts.expansions = pricing_.expansions() + master_.work();
   return counts;
 }
 
@@ -208,7 +208,7 @@ std::uint64_t BranchAndPrice::lowerBound(SearchEnd end) const {
 bool BranchAndPrice::stopped() {
   if (effort_.deadline.expired()) {
     end_ = SearchEnd::kInterrupted;
-  } else if (effort_.expansions > 0 && pricing_.expansions() > effort_.expansions) {
+  } else if (effort_.expansions > 0 && counts().expansions > effort_.expansions) {
     end_ = SearchEnd::kEffort;
   } else if (master_.memoryBytes() + tree_.memoryBytes() > effort_.memory_mb * kBytesAMegabyte) {
     end_ = SearchEnd::kMemory;

@@ -18,7 +18,7 @@ namespace split_mapf::ilp {
 struct Effort {
   Deadline deadline;
   std::size_t memory_mb = 1024;
-  std::uint64_t expansions = 0;  ///< states of pricing, or columns of solved programs; 0: no limit
+  std::uint64_t expansions = 0;  ///< states of pricing and work of the simplex method; 0: no limit
 };
 
 /// What a search has used.

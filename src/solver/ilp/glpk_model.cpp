@@ -177,6 +177,7 @@ LpStatus GlpkModel::solve(Simplex method) {
     abandon();
     return LpStatus::kInterrupted;
   }
+  const int before = glp_get_it_cnt(problem_);
   int code = 0;
   int* const result = &code;
   const bool returned = returnsFrom([this, method, result] {
@@ -196,6 +197,8 @@ LpStatus GlpkModel::solve(Simplex method) {
     if (interrupted_) return LpStatus::kInterrupted;
     fail();
   }
+  work_ += static_cast<std::uint64_t>(glp_get_it_cnt(problem_) - before) *
+           static_cast<std::uint64_t>(rows_ + columns_);
   return conclude(code);
 }
 

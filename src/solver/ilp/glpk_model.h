@@ -3,6 +3,7 @@
 #include <array>
 #include <csetjmp>
 #include <cstddef>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -97,6 +98,9 @@ class GlpkModel {
   bool isBasicRow(int row) const { return at(basic_row_, row) != 0; }
   bool isBasicColumn(int column) const { return at(basic_column_, column) != 0; }
 
+  /// What all solves so far have cost: simplex iterations, each times the rows and columns that the
+  /// program had then. The same on every machine.
+  std::uint64_t work() const { return work_; }
   /// What GLPK holds for this thread [bytes].
   std::size_t memoryBytes() const;
 
@@ -131,6 +135,7 @@ class GlpkModel {
   std::vector<int> one_based_;       // scratch: GLPK counts from 1 and skips the first entry
   std::vector<double> one_based_value_;
 
+  std::uint64_t work_ = 0;
   double objective_ = 0;
   std::vector<double> primal_;
   std::vector<double> reduced_;

@@ -49,6 +49,8 @@ class Master {
   std::size_t columns() const { return columns_.size(); }
   std::size_t conflictRows() const { return rows_.size(); }
   std::size_t memoryBytes() const;
+  /// GlpkModel::work(): about as many pricing states take as long.
+  std::uint64_t work() const { return model_.work(); }
 
  private:
   struct Column {
