@@ -9,8 +9,9 @@
 namespace split_mapf {
 namespace {
 
-// A plan may be expected to cost this share of the lower bound more than the best.
-constexpr double kTolerance = 0.02;
+// Methods that take at most this many times the least are as soon as it: the best plan decides.
+// Waiting longer for a better first plan does not pay, as refinement makes a better one meanwhile.
+constexpr double kAsSoon = 1.2;
 // Of two processors a split keeps so much busy.
 constexpr double kParallelShare = 0.8;
 
@@ -57,15 +58,16 @@ AutoChoice chooseMethod(const AutoQuestion& question, const CostModel& model) {
     return {question.solver == "auto" ? question.solvers.front() : question.solver,
             question.split == "auto" ? "none" : question.split, "nothing is known of it"};
   }
-  const auto best = std::min_element(
+  const auto soonest = std::min_element(
       methods.begin(), methods.end(),
-      [](const MethodEstimate& a, const MethodEstimate& b) { return a.excess < b.excess; });
-  const double worst_allowed = best->excess + kTolerance;
+      [](const MethodEstimate& a, const MethodEstimate& b) { return a.seconds < b.seconds; });
+  const double soon_sec = kAsSoon * soonest->seconds;
   std::stable_sort(methods.begin(), methods.end(),
-                   [&](const MethodEstimate& a, const MethodEstimate& b) {
-                     const bool a_good = a.excess <= worst_allowed;
-                     const bool b_good = b.excess <= worst_allowed;
-                     return a_good != b_good ? a_good : a.seconds < b.seconds;
+                   [soon_sec](const MethodEstimate& a, const MethodEstimate& b) {
+                     const bool a_soon = a.seconds <= soon_sec;
+                     const bool b_soon = b.seconds <= soon_sec;
+                     if (a_soon != b_soon) return a_soon;
+                     return a_soon ? a.excess < b.excess : a.seconds < b.seconds;
                    });
   const MethodEstimate& first = methods.front();
   AutoChoice choice{first.solver, question.split == "auto" ? first.split : question.split,

@@ -26,8 +26,8 @@ struct AutoChoice {
   std::string reason;  ///< half a sentence for people
 };
 
-/// Chooses the method that is expected to give its first plan soonest, among those whose plans are
-/// expected to be about as good as the best. Deterministic.
+/// Chooses the method that is expected to give its first plan soonest; of those about as soon, the
+/// one whose plan is expected to cost least. Deterministic.
 AutoChoice chooseMethod(const AutoQuestion& question, const CostModel& model);
 
 }  // namespace split_mapf

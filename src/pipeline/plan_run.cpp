@@ -90,6 +90,7 @@ void PlanRun::refineWithin(double seconds) {
   options.objective = report_.objective;
   options.seed = report_.seed;
   options.threads = report_.threads;
+  options.solvers = &solvers_;
   refine(instance_, *report_.plan, options, executor_, deadline_.within(seconds),
          [this](const Plan& better) { accept(better); });
 }

@@ -1,14 +1,17 @@
 #include "pipeline/refine.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "pipeline/incumbent.h"
 #include "pipeline/refine_worker.h"
+#include "pipeline/window_descent.h"
 #include "solver/conflict_optimizer/placement.h"
 
 namespace split_mapf {
@@ -18,6 +21,9 @@ namespace {
 constexpr double kRoundSec = 0.2;
 // Placements a robot without progress before a descent is given up; doubled each time.
 constexpr std::uint64_t kFirstPatience = 5;
+// Windows that a plan is cut into, and what a window may take for a unit of patience.
+constexpr std::array<std::uint32_t, 4> kWindowCuts = {1, 2, 4, 8};
+constexpr std::uint64_t kWindowExpansions = 20000;
 
 /// One call of refine().
 class Refinement {
@@ -30,14 +36,24 @@ class Refinement {
         deadline_(deadline),
         improved_(improved),
         plan_(std::move(plan)),
-        cost_(sumOfCostsOf(plan_)) {}
+        cost_(sumOfCostsOf(plan_)) {
+    if (options.solvers == nullptr) return;
+    const std::vector<std::string> known = options.solvers->names();
+    for (const char* name : {"ecbs", "ilp"}) {
+      if (std::find(known.begin(), known.end(), name) != known.end()) {
+        window_solvers_.emplace_back(name);
+      }
+    }
+  }
 
   Plan run() {
     const std::uint64_t least = sumOfCostsLowerBound(instance_);
     while (!deadline_.expired()) {
       const bool may_descend = mayDescend();
       if (may_descend && descents_sec_ <= search_sec_) {
-        timed(descents_sec_, [this] { descend(); });
+        timed(descents_sec_, [this] {
+          if (!descend()) shortenSomeWindow();
+        });
       } else if (cost_ > least) {
         timed(search_sec_, [this] { searchNeighbourhoods(); });
       } else if (may_descend) {
@@ -70,7 +86,7 @@ class Refinement {
 
   /// Each worker tries to make everybody arrive a step earlier; the first to succeed stops the
   /// others.
-  void descend() {
+  bool descend() {
     const auto stop = std::make_shared<StopFlag>(deadline_.stopFlag());
     const Deadline deadline = deadline_.withStop(stop);
     const std::uint32_t horizon = makespanOf(plan_) - 1;
@@ -92,10 +108,31 @@ class Refinement {
     executor_.run(std::move(jobs), options_.threads, deadline_);
     if (!found) {
       patience_ *= 2;
-      return;
+      return false;
     }
     workers_.clear();
     take(std::move(*found));
+    return true;
+  }
+
+  /// Solves windows anew, each time in another way, until one way gains a step or none does.
+  void shortenSomeWindow() {
+    for (std::size_t tried = 0; tried < window_solvers_.size() * kWindowCuts.size(); ++tried) {
+      if (deadline_.expired()) return;
+      const auto cut = kWindowCuts[window_rounds_ / window_solvers_.size() % kWindowCuts.size()];
+      WindowOptions options;
+      options.solver = window_solvers_[window_rounds_ % window_solvers_.size()];
+      options.width = std::max(2U, makespanOf(plan_) / cut);
+      options.offset = window_rounds_ % 4 < 2 ? options.width : (options.width + 1) / 2;
+      options.expansion_limit = kWindowExpansions * patience_;
+      options.seed = options_.seed + window_rounds_++;
+      options.threads = options_.threads;
+      std::optional<Plan> shorter =
+          shortenWindows(instance_, plan_, options, *options_.solvers, executor_, deadline_);
+      if (!shorter) continue;
+      workers_.clear();
+      return take(std::move(*shorter));
+    }
   }
 
   void searchNeighbourhoods() {
@@ -136,6 +173,8 @@ class Refinement {
   std::uint64_t cost_;  // its sum of costs
   std::unique_ptr<Incumbent> incumbent_;
   std::vector<std::unique_ptr<RefineWorker>> workers_;
+  std::vector<std::string> window_solvers_;
+  std::uint64_t window_rounds_ = 0;
   std::uint64_t descents_ = 0;
   std::uint64_t patience_ = kFirstPatience;
   double descents_sec_ = 0;

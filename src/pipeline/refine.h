@@ -8,6 +8,7 @@
 #include "split_mapf/core/objective.h"
 #include "split_mapf/core/plan.h"
 #include "split_mapf/pipeline/executor.h"
+#include "split_mapf/solver/registry.h"
 
 namespace split_mapf {
 
@@ -16,11 +17,15 @@ struct RefineOptions {
   Objective objective = Objective::kMakespan;
   std::uint64_t seed = 0;
   std::uint32_t threads = 1;
+  /// Whose `ecbs` and `ilp` solve windows of the plan anew for makespan; null: nobody does.
+  const SolverRegistry* solvers = nullptr;
 };
 
 /// Improves a valid plan until the deadline, or until its cost is the lower bound: for makespan by
-/// conflict optimisation one step below the plan's makespan, then, for either objective, by
-/// large-neighbourhood search on whole paths for sum of costs. No cost ever grows. Calls
+/// conflict optimisation one step below the plan's makespan and by windows of the plan solved anew,
+/// in turns, then, for either objective, by large-neighbourhood search on whole paths for sum of
+/// costs. The cost under the
+/// objective never grows. Calls
 /// `improved` from the calling thread with every better plan, a few times a second at most.
 /// Returns the best plan. The clock cuts it, so two runs may differ.
 /// Source: Li et al., IJCAI 2021; optimistic commits after Chan et al. 2024 (arXiv 2402.01961).
