@@ -7,6 +7,7 @@
 #include "split_mapf/core/error.h"
 #include "split_mapf/solver/conflict_optimizer.h"
 #include "split_mapf/solver/ecbs.h"
+#include "split_mapf/solver/lacam.h"
 #include "split_mapf/solver/prioritized.h"
 
 namespace split_mapf {
@@ -65,6 +66,7 @@ const SolverRegistry& builtinSolvers() {
     SolverRegistry solvers;
     solvers.add(ConflictOptimizerSolver::info());
     solvers.add(EcbsSolver::info());
+    solvers.add(LacamSolver::info());
     solvers.add(PrioritizedSolver::info());
     return solvers;
   }();

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+
+#include "split_mapf/solver/registry.h"
+#include "split_mapf/solver/solver.h"
+
+namespace split_mapf {
+
+struct LacamSettings;
+
+/// Lazy constraints addition search: depth-first over configurations (where all robots are at one
+/// step), each successor made by PIBT; a configuration that is visited again forces one robot more
+/// to one place, so in the end every successor comes up. Complete: it finds a plan or proves that
+/// there is none, in a search that is finite but may be exponential; instances that
+/// core/solvability refuses need no search.
+/// Source: Okumura, AAAI 2023 and IJCAI 2023 (swaps), AAMAS 2024 (scattered guidance, after Han and
+/// Yu, ICRA 2022). Deviations: one configuration a visit instead of ten; guidance trades collisions
+/// against detours; the plan follows the shortest way through the configurations seen and is
+/// compacted and polished.
+/// Robots need no room: where all cells are taken they rotate.
+class LacamSolver : public Solver {
+ public:
+  /// @throws OptionError for an option value out of range.
+  explicit LacamSolver(const SolverOptions& options);
+  ~LacamSolver() override;
+  /// Counts as expansions: the robots that PIBT moves, and the cells that guidance and polish
+  /// expand. Memory: 4 to 8 bytes a robot and configuration, at most what the option `memory` says.
+  SolveResult solve(const Instance& instance, const Deadline& deadline) const override;
+  static SolverInfo info();
+
+ private:
+  std::unique_ptr<LacamSettings> settings_;
+};
+
+}  // namespace split_mapf

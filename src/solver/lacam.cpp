@@ -1,0 +1,148 @@
+#include "split_mapf/solver/lacam.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "solver/lacam/lacam_search.h"
+#include "solver/lacam/settings.h"
+#include "solver/search/eviction_search.h"
+#include "solver/search/replan_singly.h"
+#include "split_mapf/core/compaction.h"
+#include "split_mapf/core/option_values.h"
+#include "split_mapf/core/solvability.h"
+
+namespace split_mapf {
+namespace {
+
+// More makes no difference on any map, and sums of lengths must not overflow.
+constexpr std::uint64_t kMostMargin = 1U << 20;
+
+// Where robots crowd, a pass can take many times what the search has taken: it ends when it has
+// taken one part in so many of the search's expansions.
+constexpr std::uint64_t kPolishShare = 2;
+
+SolveResult interrupted(const Deadline& deadline) {
+  SolveResult result;
+  result.termination = interruptionOf(deadline);
+  return result;
+}
+
+/// What is known before any search: a proof that there is no plan, or that there is no time.
+std::optional<SolveResult> refuse(const Instance& instance, const LacamSettings& settings,
+                                  const Deadline& deadline) {
+  for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {
+    if (deadline.expired()) return interrupted(deadline);
+    if (instance.shortestLength(robot) == DistanceTable::kUnreachable) return cutOffResult(robot);
+  }
+  if (!settings.check) return std::nullopt;
+  const SolvabilityVerdict verdict = checkSolvable(instance, deadline);
+  if (verdict.answer != Solvability::kUnsolvable) return std::nullopt;
+  SolveResult result;
+  result.termination = Termination::kUnsolvable;
+  result.message = explain(verdict, instance.grid());
+  return result;
+}
+
+/// Gives robots earlier paths until passes, expansions or time run out. The plan stays valid.
+void polish(const Instance& instance, const LacamSettings& settings, const Deadline& deadline,
+            SolveResult& result) {
+  std::vector<Path>& paths = result.plan->paths;
+  PathTable table(instance.graph().size());
+  for (std::uint32_t i = 0; i < instance.robots(); ++i) table.insert(i, paths[i]);
+  EvictionSearch search(instance.graph());
+  const FindPath find = [&](std::uint32_t robot, std::uint32_t latest_arrival) {
+    EvictionQuery query;
+    query.start = instance.start(robot);
+    query.distances = &instance.distances(robot);
+    query.placed = &table;
+    query.latest_arrival = latest_arrival;
+    EvictionAnswer answer = search.search(query, deadline);
+    result.low_level_expansions += answer.expansions;
+    return std::move(answer.path);
+  };
+  std::uint64_t limit = result.low_level_expansions + result.low_level_expansions / kPolishShare;
+  if (settings.expansion_limit > 0) limit = std::min(limit, settings.expansion_limit);
+  const auto stopped = [&] { return deadline.expired() || result.low_level_expansions >= limit; };
+  replanSingly(instance, settings.polish, find, stopped, paths, table);
+}
+
+void reportFailure(LacamSearch::Outcome outcome, const LacamSettings& settings,
+                   const Deadline& deadline, SolveResult& result) {
+  if (outcome == LacamSearch::Outcome::kInterrupted) {
+    result.termination = interruptionOf(deadline);
+  } else if (outcome == LacamSearch::Outcome::kSpent) {
+    const SolveResult spent = outOfExpansions(settings.expansion_limit);
+    result.termination = spent.termination;
+    result.message = spent.message;
+  } else if (outcome == LacamSearch::Outcome::kFull) {
+    result.termination = Termination::kNoPlanFound;
+    result.message = "gave up as the configurations took " + std::to_string(settings.memory) +
+                     " MiB; the solver option memory allows more";
+  } else {
+    result.termination = Termination::kUnsolvable;
+    result.message = "no plan exists: all " + std::to_string(result.high_level_nodes) +
+                     " configurations that the robots can reach were searched";
+  }
+}
+
+}  // namespace
+
+LacamSolver::LacamSolver(const SolverOptions& options) : settings_(new LacamSettings) {
+  LacamSettings& settings = *settings_;
+  settings.objective = options.objective;
+  settings.seed = options.seed;
+  settings.expansion_limit = options.expansion_limit;
+  const OptionValues values(options.values);
+  settings.check = values.flag("check", settings.check);
+  settings.guidance = values.count("guidance", settings.guidance);
+  settings.margin = std::min(kMostMargin, values.count("margin", settings.margin));
+  settings.swap = values.flag("swap", settings.swap);
+  settings.polish = values.count("polish", settings.polish);
+  settings.memory = values.count("memory", settings.memory);
+}
+
+LacamSolver::~LacamSolver() = default;
+
+SolverInfo LacamSolver::info() {
+  const LacamSettings defaults;
+  const auto flag = [](bool value) { return std::string(value ? "true" : "false"); };
+  return {
+      "lacam",
+      "search over configurations made by PIBT: fast, complete, also where hardly a cell is free",
+      {{"check", flag(defaults.check), "ask first whether the rules of exchange allow a plan"},
+       {"guidance", std::to_string(defaults.guidance),
+        "rounds in which robots choose scattered paths to follow; 0: no guidance"},
+       {"margin", std::to_string(defaults.margin),
+        "steps that a scattered path may be longer than the shortest"},
+       {"swap", flag(defaults.swap), "robots that block each other in corridors change places"},
+       {"polish", std::to_string(defaults.polish),
+        "passes over the plan found that give robots earlier paths, within the search's own "
+        "effort"},
+       {"memory", std::to_string(defaults.memory),
+        "MiB that configurations may take before the search gives up"}},
+      [](const SolverOptions& options) { return std::make_unique<LacamSolver>(options); }};
+}
+
+SolveResult LacamSolver::solve(const Instance& instance, const Deadline& deadline) const {
+  if (auto refusal = refuse(instance, *settings_, deadline)) return *std::move(refusal);
+  SolveResult result;
+  result.lower_bound = lowerBound(instance, settings_->objective);
+  LacamSearch search(instance, *settings_, deadline);
+  const LacamSearch::Outcome outcome = search.run();
+  result.high_level_nodes = search.configurations();
+  result.low_level_expansions = search.expansions();
+  if (outcome != LacamSearch::Outcome::kFound) {
+    reportFailure(outcome, *settings_, deadline, result);
+    return result;
+  }
+  result.termination = Termination::kSolved;
+  result.plan = compact(search.plan(), instance.graph().size());
+  if (settings_->polish > 0) polish(instance, *settings_, deadline, result);
+  certifyByLowerBound(result, settings_->objective, "lacam");
+  return result;
+}
+
+}  // namespace split_mapf

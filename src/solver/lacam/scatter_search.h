@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/search/bucket_queue.h"
+#include "split_mapf/core/instance.h"
+#include "split_mapf/core/plan.h"
+
+namespace split_mapf {
+
+/// When paths cross each vertex, and from where. Memory: four bytes a step of the paths. Not
+/// thread-safe.
+class Crossings {
+ public:
+  explicit Crossings(const Graph& graph);
+
+  void insert(const Path& path);
+  /// @pre the path is there, or empty.
+  void remove(const Path& path);
+  /// How many paths somebody runs into who comes from `from` to `to` at step `t`: there at the same
+  /// time, coming the other way, or ended there before.
+  std::uint32_t count(Vertex from, Vertex to, std::uint32_t t) const;
+
+ private:
+  static constexpr std::uint32_t kFromBits = 3;
+  static constexpr std::uint32_t kNever = 0xffffffffU;
+
+  std::uint32_t keyOf(Vertex from, Vertex to, std::uint32_t t) const;
+  template <typename Change>
+  void visit(const Path& path, Change change) const;
+
+  const Graph& graph_;
+  std::vector<std::vector<std::uint32_t>> visits_;  // by vertex: step and direction, ascending
+  std::vector<std::uint32_t> ended_;                // by vertex: step from which a path stays
+};
+
+/// Finds a robot's path through space that collides with few of the others.
+class ScatterSearch {
+ public:
+  ScatterSearch(const Instance& instance, std::uint32_t margin);
+
+  Path find(std::uint32_t robot);
+  /// Of the last path.
+  std::uint64_t collisions() const { return collisions_; }
+  std::uint64_t expansions() const { return expansions_; }
+  Crossings& table() { return table_; }
+
+ private:
+  struct State {
+    Vertex vertex;
+    std::uint32_t time;
+    std::uint32_t collisions;
+    std::uint32_t parent;
+    std::uint32_t next;
+  };
+
+  void expand(std::uint32_t index);
+
+  const Instance& instance_;
+  std::uint32_t margin_;
+  Crossings table_;
+  const DistanceTable* distances_ = nullptr;
+  std::uint32_t shortest_ = 0;
+  std::vector<std::uint32_t> closed_;  // by vertex: number of the search that closed it
+  std::uint32_t search_number_ = 0;
+  BucketQueue<State> queue_;
+  std::uint64_t collisions_ = 0;
+  std::uint64_t expansions_ = 0;
+};
+
+}  // namespace split_mapf

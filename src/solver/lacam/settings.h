@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+
+#include "split_mapf/core/objective.h"
+
+namespace split_mapf {
+
+/// What a run of LaCAM is told, and which of its techniques to use.
+struct LacamSettings {
+  Objective objective = Objective::kMakespan;
+  std::uint64_t seed = 0;
+  std::uint64_t expansion_limit = 0;  ///< as in SolverOptions
+
+  bool check = true;           ///< ask core/solvability first
+  std::uint64_t guidance = 4;  ///< rounds in which robots choose scattered paths; 0: no guidance
+  std::uint64_t margin = 10;   ///< steps that a scattered path may be longer than the shortest
+  bool swap = true;            ///< robots that block each other change places
+  std::uint64_t polish = 1;    ///< passes over the plan found, for half the search's effort at most
+  std::uint64_t memory = 512;  ///< MiB that configurations may take
+};
+
+}  // namespace split_mapf
