@@ -25,12 +25,6 @@ constexpr std::uint32_t kSlack = 5;
 constexpr int kHorizons = 6;
 constexpr std::uint32_t kLeastGrowth = 5;
 
-std::vector<std::string> orders() {
-  std::vector<std::string> names = robotOrders();
-  names.insert(names.begin(), "objective");
-  return names;
-}
-
 /// One run of the solver.
 class PrioritizedRun {
  public:
@@ -53,7 +47,6 @@ class PrioritizedRun {
   const std::string& failure() const { return failure_; }
 
  private:
-  std::vector<std::uint32_t> order() const;
   bool repair(const std::vector<std::uint32_t>& left_over, std::uint32_t horizon);
 
   const Instance& instance_;
@@ -67,20 +60,13 @@ class PrioritizedRun {
   std::string failure_;
 };
 
-std::vector<std::uint32_t> PrioritizedRun::order() const {
-  RandomEngine engine(seed_);
-  std::string name = settings_.order;
-  if (name == "objective") {
-    name = objective_ == Objective::kMakespan ? "longest_first" : "shortest_first";
-  }
-  return makeOrder(instance_, name, engine);
-}
-
 bool PrioritizedRun::run() {
   const std::uint32_t slack = objective_ == Objective::kMakespan ? 0 : kSlack;
   const std::uint32_t horizon = makespanLowerBound(instance_) + slack;
+  RandomEngine engine(seed_);
   Placing placing(instance_, effort_, table_, plan_.paths);
-  const std::vector<std::uint32_t> left_over = placing.run(order(), settings_.demotions, horizon);
+  const std::vector<std::uint32_t> left_over =
+      placing.run(makeOrder(instance_, settings_.order, engine), settings_.demotions, horizon);
   if (effort_.stopped()) return false;
   if (left_over.empty()) return true;
   if (settings_.repair) return repair(left_over, horizon);
@@ -128,7 +114,7 @@ PrioritizedSolver::PrioritizedSolver(const SolverOptions& options)
       seed_(options.seed),
       expansion_limit_(options.expansion_limit) {
   const OptionValues values(options.values);
-  settings_.order = values.choice("order", settings_.order, orders());
+  settings_.order = values.choice("order", settings_.order, robotOrders());
   settings_.demotions = values.count("demotions", settings_.demotions);
   settings_.repair = values.flag("repair", settings_.repair);
   settings_.patience = values.count("patience", settings_.patience);
@@ -140,9 +126,7 @@ SolverInfo PrioritizedSolver::info() {
   return {
       "prioritized",
       "prioritised planning with demotion and repair: fast, incomplete",
-      {{"order", defaults.order,
-        "objective (shortest first for sum of costs, else longest first), shortest_first, "
-        "longest_first, random or given"},
+      {{"order", defaults.order, "shortest_first, longest_first, random or given"},
        {"demotions", std::to_string(defaults.demotions),
         "how often a robot that is in the way of another may be planned again after it"},
        {"repair", defaults.repair ? "true" : "false",
