@@ -19,6 +19,8 @@ namespace {
 // Robots whose conflicts hang together up to this number are worth a search for the optimum.
 constexpr std::uint32_t kSmallKnot = 20;
 constexpr std::uint64_t kOptimumExpansions = 50000;
+// Passes across the seams where nothing is said and the cost is above its bound.
+constexpr std::uint32_t kReplanPasses = 3;
 // What the solver that `auto` chose may take before others are called: many times the usual.
 constexpr std::uint64_t kLeastExpansions = 5000000;
 constexpr std::uint64_t kExpansionsAStep = 1000;
@@ -262,10 +264,13 @@ std::optional<Plan> PlanRun::solve(const Decomposition& tree) {
     log_.enterStage("compact");
     plan = compact(plan, instance_.graph().size());
   }
-  if (outcome.plans.size() > 1 && request_.split_options.replan_passes > 0) {
+  if (outcome.plans.size() > 1) {
+    const bool least = costOf(plan, report_.objective) <= report_.proved_lower_bound;
+    const std::uint32_t passes =
+        request_.split_options.replan_passes.value_or(least ? 0 : kReplanPasses);
+    if (passes == 0) return plan;
     log_.enterStage("replan");
-    plan =
-        replanSingly(instance_, std::move(plan), request_.split_options.replan_passes, deadline_);
+    plan = replanSingly(instance_, std::move(plan), passes, deadline_);
   }
   return plan;
 }

@@ -71,15 +71,16 @@ const std::vector<SplitOptionInfo>& splitOptions() {
        "space split: T1, the steps that a phase should take; 0: the time left over the phases "
        "left. T2 is what remains",
        true},
-      {"replan", "3",
+      {"replan", "3, or 0 where the cost already meets its bound",
        "passes of planning robots anew, one at a time, across the seams after compaction; 0: none"},
       {"rescue", "true",
        "space split: whether a piece that the named solver fails on is handed to other solvers "
-       "(the "
-       "rows of `subproblems` say to which); false: the named solver alone, on ever larger pieces",
+       "(the rows of `subproblems` say to which); false: the named solver alone, on ever larger "
+       "pieces",
        true},
-      {"variant", "the objective's own",
-       "where robots are at the seams of a time split: makespan (each at its share of its way) or "
+      {"variant", "ahead for makespan, else sum_of_costs",
+       "where robots are at the seams of a time split: ahead (as far as nine tenths of the time "
+       "allow, or its share of its way), makespan (each at its share of its way) or "
        "sum_of_costs (as far as time allows); bisection halves the way again and again, for Kt "
        "with K a "
        "power of two"},
@@ -102,7 +103,9 @@ SplitOptions readSplitOptions(const std::map<std::string, std::string>& values,
   const OptionValues reader(values);
   SplitOptions options;
   const std::string variant =
-      reader.choice("variant", toString(objective), {"makespan", "sum_of_costs", "bisection"});
+      reader.choice("variant", objective == Objective::kMakespan ? "ahead" : "sum_of_costs",
+                    {"ahead", "makespan", "sum_of_costs", "bisection"});
+  if (variant == "ahead") options.variant = TimeSplitVariant::kAhead;
   if (variant == "sum_of_costs") options.variant = TimeSplitVariant::kSumOfCosts;
   if (variant == "bisection") options.variant = TimeSplitVariant::kBisection;
   if (values.count("assignment") > 0) {
@@ -116,8 +119,10 @@ SplitOptions readSplitOptions(const std::map<std::string, std::string>& values,
   if (check == "never") options.check = SplitOptions::Check::kNever;
   options.rescue = reader.flag("rescue", options.rescue);
   options.compaction = reader.flag("compaction", options.compaction);
-  options.replan_passes = static_cast<std::uint32_t>(
-      std::min<std::uint64_t>(reader.count("replan", options.replan_passes), 1000000));
+  if (values.count("replan") > 0) {
+    options.replan_passes =
+        static_cast<std::uint32_t>(std::min<std::uint64_t>(reader.count("replan", 0), 1000000));
+  }
   return options;
 }
 

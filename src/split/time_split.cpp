@@ -25,14 +25,25 @@ std::uint32_t shareOf(std::uint32_t total, double ratio) {
   return std::min(total, static_cast<std::uint32_t>(std::ceil(total * ratio - 1e-9)));
 }
 
+// Steps of a piece's time that robots may walk with TimeSplitVariant::kAhead. Measured with `8t` on
+// den520d (500 robots) and ost003d (300): sums of costs 1.04 and 1.06 times the bound, 1.7 and 1.8
+// where everybody walks its share only; with 0.95 the makespan bound was missed once in ten.
+constexpr double kAheadShare = 0.9;
+
+std::uint32_t targetOf(std::uint32_t length, double ratio, TimeShare share,
+                       TimeSplitVariant variant) {
+  if (variant == TimeSplitVariant::kSumOfCosts) return std::min(length, share.piece);
+  const auto own_share = static_cast<std::uint32_t>(std::lround(length * ratio));
+  if (variant != TimeSplitVariant::kAhead) return own_share;
+  const auto ahead = static_cast<std::uint32_t>(share.piece * kAheadShare);
+  return std::max(own_share, std::min(length, ahead));
+}
+
 std::vector<std::uint32_t> targets(const Instance& instance, const std::vector<Vertex>& from,
                                    double ratio, TimeShare share, TimeSplitVariant variant) {
   std::vector<std::uint32_t> target(instance.robots());
   for (std::uint32_t i = 0; i < instance.robots(); ++i) {
-    const std::uint32_t length = instance.distances(i)(from[i]);
-    target[i] = variant != TimeSplitVariant::kSumOfCosts
-                    ? static_cast<std::uint32_t>(std::lround(length * ratio))
-                    : std::min(length, share.piece);
+    target[i] = targetOf(instance.distances(i)(from[i]), ratio, share, variant);
   }
   return target;
 }

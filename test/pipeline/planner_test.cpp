@@ -56,7 +56,7 @@ TEST(Planner, ReportsTheWholeWay) {
   std::vector<std::string> stages;
   for (const auto& stage : report.stages) stages.push_back(stage.first);
   EXPECT_EQ(stages, (std::vector<std::string>{"check", "distances", "choose", "split", "solve",
-                                              "stitch", "compact", "replan", "validate"}));
+                                              "stitch", "compact", "validate"}));
 }
 
 TEST(Planner, TheSamePlanAtAnyNumberOfThreads) {

