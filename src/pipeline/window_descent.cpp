@@ -94,6 +94,7 @@ std::optional<Plan> shortenWindows(const Instance& instance, const Plan& plan,
   std::vector<std::uint32_t> everyone(instance.robots());
   std::iota(everyone.begin(), everyone.end(), 0U);
   std::vector<Decomposition> leaves;
+  leaves.reserve(pieces.size());
   for (std::optional<Instance>& piece : pieces) {
     leaves.push_back(Decomposition::leaf(std::move(*piece), everyone));
   }

@@ -27,7 +27,7 @@ std::uint32_t shareOf(std::uint32_t total, double ratio) {
 
 // Steps of a piece's time that robots may walk with TimeSplitVariant::kAhead. Measured with `8t` on
 // den520d (500 robots) and ost003d (300): sums of costs 1.04 and 1.06 times the bound, 1.7 and 1.8
-// where everybody walks its share only; with 0.95 the makespan bound was missed once in ten.
+// where everybody walks its share only; with 0.95 the makespan bound was missed on some of them.
 constexpr double kAheadShare = 0.9;
 
 std::uint32_t targetOf(std::uint32_t length, double ratio, TimeShare share,

@@ -232,7 +232,7 @@ TEST(Pibt, KeepsFixedPlacesAndRefusesSwaps) {
   const Instance instance = instanceFromAscii({"ab.", "..."}, {".ab", "..."});
   const RobotDistances distances(instance);
   Pibt pibt(instance, distances, nullptr, true, 0);
-  const Configuration from = instance.starts();
+  const Configuration& from = instance.starts();
   Configuration next = {1, kNoVertex};
   ASSERT_TRUE(pibt.complete(from, {0, 1}, next));
   EXPECT_EQ(next[0], 1U);
