@@ -9,6 +9,9 @@
 namespace split_mapf {
 namespace {
 
+// Plans that cost more than so many times the best expected are no choice while others are: at
+// once, but refinement would take long to make up for them.
+constexpr double kComparable = 1.25;
 // Methods that take at most this many times the least are as soon as it: the best plan decides.
 // Waiting longer for a better first plan does not pay, as refinement makes a better one meanwhile.
 constexpr double kAsSoon = 1.2;
@@ -58,6 +61,13 @@ AutoChoice chooseMethod(const AutoQuestion& question, const CostModel& model) {
     return {question.solver == "auto" ? question.solvers.front() : question.solver,
             question.split == "auto" ? "none" : question.split, "nothing is known of it"};
   }
+  const auto best = std::min_element(
+      methods.begin(), methods.end(),
+      [](const MethodEstimate& a, const MethodEstimate& b) { return a.excess < b.excess; });
+  const double most = kComparable * (1 + best->excess) - 1;
+  methods.erase(std::remove_if(methods.begin(), methods.end(),
+                               [most](const MethodEstimate& m) { return m.excess > most; }),
+                methods.end());
   const auto soonest = std::min_element(
       methods.begin(), methods.end(),
       [](const MethodEstimate& a, const MethodEstimate& b) { return a.seconds < b.seconds; });

@@ -26,8 +26,9 @@ struct AutoChoice {
   std::string reason;  ///< half a sentence for people
 };
 
-/// Chooses the method that is expected to give its first plan soonest; of those about as soon, the
-/// one whose plan is expected to cost least. Deterministic.
+/// Chooses, among the methods whose plans are expected to cost no more than a quarter above the
+/// best, the one that is expected to give its first plan soonest; of those about as soon, the one
+/// whose plan is expected to cost least. Deterministic.
 AutoChoice chooseMethod(const AutoQuestion& question, const CostModel& model);
 
 }  // namespace split_mapf

@@ -8,7 +8,7 @@ namespace split_mapf {
 namespace {
 
 // Times grow with the number of robots, but for `sturdy`; `rough` is a little sooner than that, but
-// makes worse plans.
+// makes worse plans; `hopeless` is sooner than all and its plans cost twice the bound.
 constexpr const char* kModel = R"(methods:
   - {solver: quick, split: none, objective: makespan, log_seconds: [-9, 2, 0, 0, 0, 0],
      log_excess: [-9, 0, 0, 0, 0, 0]}
@@ -17,6 +17,8 @@ constexpr const char* kModel = R"(methods:
   - {solver: sturdy, split: none, objective: makespan, log_seconds: [0, 0, 0, 0, 0, 0],
      log_excess: [-9, 0, 0, 0, 0, 0]}
   - {solver: rough, split: none, objective: makespan, log_seconds: [-0.1, 0, 0, 0, 0, 0],
+     log_excess: [-2, 0, 0, 0, 0, 0]}
+  - {solver: hopeless, split: none, objective: makespan, log_seconds: [-20, 0, 0, 0, 0, 0],
      log_excess: [0, 0, 0, 0, 0, 0]}
 )";
 
@@ -27,7 +29,7 @@ AutoQuestion question(std::uint32_t robots, std::uint32_t threads) {
   question.features.largest_group = 1;
   question.threads = threads;
   question.solver = "auto";
-  question.solvers = {"quick", "rough", "sturdy"};
+  question.solvers = {"quick", "rough", "sturdy", "hopeless"};
   question.split = "auto";
   return question;
 }
@@ -38,8 +40,10 @@ TEST(AutoChoice, TheSoonestAndOfThoseAboutAsSoonTheBest) {
   EXPECT_EQ(chooseMethod(question(10, 1), model).split, "none");
   EXPECT_EQ(chooseMethod(question(1000, 1), model).solver, "sturdy");
   AutoQuestion without = question(1000, 1);
-  without.solvers = {"quick", "rough"};
+  without.solvers = {"quick", "rough", "hopeless"};
   EXPECT_EQ(chooseMethod(without, model).solver, "rough");
+  without.solvers = {"hopeless"};
+  EXPECT_EQ(chooseMethod(without, model).solver, "hopeless");
 }
 
 TEST(AutoChoice, MoreProcessorsMakeASplitPay) {
