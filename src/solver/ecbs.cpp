@@ -27,6 +27,8 @@ EcbsSolver::EcbsSolver(const SolverOptions& options) : settings_(new EcbsSetting
   settings.detour = values.count("detour", settings.detour);
   settings.bypass = values.flag("bypass", settings.bypass);
   settings.targets = values.flag("targets", settings.targets);
+  settings.cardinal = values.flag("cardinal", settings.cardinal);
+  settings.matching = values.flag("matching", settings.matching);
   settings.raise_every = values.count("raise_every", settings.raise_every);
   settings.polish = values.count("polish", settings.polish);
 }
@@ -45,6 +47,10 @@ SolverInfo EcbsSolver::info() {
         "steps a robot may go round before more weighs like collisions"},
        {"bypass", flag(defaults.bypass), "replace a path instead of branching where that helps"},
        {"targets", flag(defaults.targets), "branch on arrival times at goals that are run into"},
+       {"cardinal", flag(defaults.cardinal),
+        "for sum of costs: branch first on conflicts that raise the bound in both branches"},
+       {"matching", flag(defaults.matching),
+        "add what disjoint cardinal conflicts cost to the lower bound; only with cardinal"},
        {"raise_every", std::to_string(defaults.raise_every),
         "every so many nodes the one of the least lower bound; 0: never"},
        {"polish", std::to_string(defaults.polish),

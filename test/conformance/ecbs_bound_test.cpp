@@ -18,8 +18,8 @@ using test::oracleCases;
 
 constexpr double kPatienceSec = 60;
 
-/// Parameters: w in per cent, objective.
-class EcbsBound : public ::testing::TestWithParam<std::tuple<int, Objective>> {
+/// Parameters: w in per cent, objective, whether conflicts are ranked.
+class EcbsBound : public ::testing::TestWithParam<std::tuple<int, Objective, bool>> {
  protected:
   double suboptimality() const { return std::get<0>(GetParam()) / 100.0; }
   Objective objective() const { return std::get<1>(GetParam()); }
@@ -28,6 +28,7 @@ class EcbsBound : public ::testing::TestWithParam<std::tuple<int, Objective>> {
     SolverOptions options;
     options.objective = objective();
     options.suboptimality = suboptimality();
+    options.values["cardinal"] = std::get<2>(GetParam()) ? "true" : "false";
     return builtinSolvers().create("ecbs", options)->solve(instance, Deadline(kPatienceSec));
   }
 
@@ -111,6 +112,8 @@ INSTANTIATE_TEST_SUITE_P(
                                          std::pair<std::string, std::string>("detour", "0"),
                                          std::pair<std::string, std::string>("bypass", "false"),
                                          std::pair<std::string, std::string>("targets", "false"),
+                                         std::pair<std::string, std::string>("cardinal", "false"),
+                                         std::pair<std::string, std::string>("matching", "false"),
                                          std::pair<std::string, std::string>("raise_every", "1"),
                                          std::pair<std::string, std::string>("polish", "0")),
                        ::testing::Values(Objective::kMakespan, Objective::kSumOfCosts)),
@@ -120,12 +123,14 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 INSTANTIATE_TEST_SUITE_P(Weights, EcbsBound,
-                         ::testing::Combine(::testing::Values(100, 120, 150, 200),
+                         ::testing::Combine(::testing::Values(100, 102, 105, 120, 150, 200),
                                             ::testing::Values(Objective::kMakespan,
-                                                              Objective::kSumOfCosts)),
+                                                              Objective::kSumOfCosts),
+                                            ::testing::Bool()),
                          [](const auto& info) {
                            return "w" + std::to_string(std::get<0>(info.param)) + "_" +
-                                  toString(std::get<1>(info.param));
+                                  toString(std::get<1>(info.param)) +
+                                  (std::get<2>(info.param) ? "_cardinal" : "");
                          });
 
 }  // namespace

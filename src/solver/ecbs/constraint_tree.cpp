@@ -1,5 +1,7 @@
 #include "solver/ecbs/constraint_tree.h"
 
+#include <algorithm>
+
 namespace split_mapf {
 
 std::uint32_t ConstraintTree::addPath(Path path) {
@@ -10,7 +12,7 @@ std::uint32_t ConstraintTree::addPath(Path path) {
 std::uint32_t ConstraintTree::add(TreeNode node) {
   const auto number = static_cast<std::uint32_t>(nodes_.size());
   open_.push({node.lower_bound, node.cost, number});
-  waiting_.push({node.cost, node.lower_bound, number});
+  waiting_.push({std::max(node.cost, node.lower_bound), node.lower_bound, number});
   nodes_.push_back(std::move(node));
   return number;
 }
@@ -51,6 +53,20 @@ void ConstraintTree::close(std::uint32_t number) {
   nodes_[number].closed = true;
   nodes_[number].conflicts.clear();
   nodes_[number].conflicts.shrink_to_fit();
+}
+
+void ConstraintTree::reopen(std::uint32_t number, std::uint64_t lower_bound) {
+  TreeNode node = std::move(nodes_[number]);
+  close(number);
+  node.lower_bound = lower_bound;
+  add(std::move(node));
+}
+
+void ConstraintTree::gatherConstraints(std::uint32_t number, std::uint32_t robot,
+                                       RobotConstraints& out) const {
+  for (std::uint32_t i = number; nodes_[i].parent != TreeNode::kNoParent; i = nodes_[i].parent) {
+    if (nodes_[i].constraint.robot == robot) apply(nodes_[i].constraint, out);
+  }
 }
 
 }  // namespace split_mapf

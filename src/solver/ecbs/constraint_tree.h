@@ -18,6 +18,7 @@ struct TreeNode {
   std::uint32_t parent = kNoParent;
   Constraint constraint;          ///< added by this node; the root has none
   std::uint32_t robot_bound = 0;  ///< lower bound of the constrained robot's path [steps]
+  std::uint64_t bound_sum = 0;    ///< of all robots' bounds, for sum of costs [steps]
   std::uint64_t lower_bound = 0;  ///< of every plan below this node [steps]
   std::uint64_t cost = 0;         ///< of the node's plan, conflicts and all [steps]
   std::vector<std::pair<std::uint32_t, std::uint32_t>> paths;  ///< (robot, path number), new here
@@ -45,6 +46,10 @@ class ConstraintTree {
   /// The best node of FOCAL; it stays open until close(). @pre !empty()
   std::uint32_t best();
   void close(std::uint32_t number);
+  /// Gives an open node without children a higher lower bound, and so another number.
+  void reopen(std::uint32_t number, std::uint64_t lower_bound);
+  /// Adds what the node and those above it forbid the robot.
+  void gatherConstraints(std::uint32_t number, std::uint32_t robot, RobotConstraints& out) const;
 
  private:
   struct Entry {
@@ -66,7 +71,7 @@ class ConstraintTree {
   std::deque<TreeNode> nodes_;
   std::deque<Path> paths_;
   Queue open_;     // by lower bound
-  Queue waiting_;  // not in FOCAL yet, by cost
+  Queue waiting_;  // not in FOCAL yet, by the cost that the node's plan will at least end with
   Queue focal_;    // by conflicts, then cost
 };
 

@@ -24,8 +24,10 @@ EcbsSearch::EcbsSearch(const Instance& instance, const EcbsSettings& settings,
       table_(instance.graph().size()),
       low_level_(instance, settings, table_, deadline),
       finder_(instance.robots(), settings.targets),
+      cardinality_(instance, deadline, tree_),
       path_of_(instance.robots(), kNoPath),
       bound_of_(instance.robots(), 0),
+      constrained_at_(instance.robots(), TreeNode::kNoParent),
       wanted_path_(instance.robots(), kNoPath),
       seen_path_(instance.robots(), 0),
       seen_bound_(instance.robots(), 0) {}
@@ -33,6 +35,7 @@ EcbsSearch::EcbsSearch(const Instance& instance, const EcbsSettings& settings,
 SolveResult EcbsSearch::run() {
   SolveResult result;
   bool done = false;
+  const bool ranks = settings_.cardinal && settings_.objective == Objective::kSumOfCosts;
   std::uint64_t lower_bound = lowerBound(instance_, settings_.objective);
   if (plantRoot()) {
     while (!done && !low_level_.stopped() && !tree_.empty()) {
@@ -43,7 +46,9 @@ SolveResult EcbsSearch::run() {
           result.high_level_nodes % settings_.raise_every == settings_.raise_every - 1;
       const std::uint32_t node = raise ? tree_.lowest() : tree_.best();
       ++result.high_level_nodes;
-      done = expand(node, result);
+      // Elsewhere FOCAL wants fewer conflicts, not higher bounds, and gets them sooner unranked.
+      const bool ranked = ranks && (raise || settings_.suboptimality == 1);
+      done = expand(node, ranked, result);
     }
   }
   if (!done && low_level_.exhausted()) {
@@ -76,6 +81,7 @@ bool EcbsSearch::plantRoot() {
   if (!plan) return false;
   TreeNode root;
   root.lower_bound = lowerBound(instance_, settings_.objective);
+  root.bound_sum = lowerBound(instance_, Objective::kSumOfCosts);
   root.conflicts = std::move(plan->conflicts);
   root.cost = costOf(Plan{plan->paths}, settings_.objective);
   for (std::uint32_t robot = 0; robot < instance_.robots(); ++robot) {
@@ -97,6 +103,7 @@ void EcbsSearch::load(std::uint32_t node) {
   ++loads_;
   for (std::uint32_t robot = 0; robot < instance_.robots(); ++robot) {
     bound_of_[robot] = instance_.shortestLength(robot);
+    constrained_at_[robot] = TreeNode::kNoParent;
   }
   for (std::uint32_t i = node; i != TreeNode::kNoParent; i = tree_.node(i).parent) {
     const TreeNode& at = tree_.node(i);
@@ -109,16 +116,19 @@ void EcbsSearch::load(std::uint32_t node) {
     if (seen_bound_[at.constraint.robot] == loads_) continue;
     seen_bound_[at.constraint.robot] = loads_;
     bound_of_[at.constraint.robot] = at.robot_bound;
+    constrained_at_[at.constraint.robot] = i;
   }
   for (std::uint32_t robot = 0; robot < instance_.robots(); ++robot) {
     usePath(robot, wanted_path_[robot]);
   }
 }
 
-bool EcbsSearch::expand(std::uint32_t node, SolveResult& result) {
+bool EcbsSearch::expand(std::uint32_t node, bool ranked, SolveResult& result) {
   load(node);
   while (!tree_.node(node).conflicts.empty()) {
-    const Branches branches = branchOn(choose(tree_.node(node)));
+    const std::optional<Conflict> conflict = choose(node, ranked);
+    if (!conflict || low_level_.stopped()) return false;
+    const Branches branches = branchOn(*conflict);
     std::optional<Child> first = makeChild(node, branches.first);
     if (low_level_.stopped()) return false;
     if (first && adoptInstead(node, *first)) continue;
@@ -166,20 +176,13 @@ std::optional<EcbsSearch::Child> EcbsSearch::makeChild(std::uint32_t parent,
   Child child;
   child.node.parent = parent;
   child.node.constraint = constraint;
-  gatherConstraints(parent, constraint.robot);
+  constraints_.clear();
+  tree_.gatherConstraints(parent, constraint.robot, constraints_);
   apply(constraint, constraints_);
   if (low_level_.stopped() || !planChild(parent, child) || low_level_.stopped())
     return std::nullopt;
   completeChild(parent, child);
   return child;
-}
-
-void EcbsSearch::gatherConstraints(std::uint32_t node, std::uint32_t robot) {
-  constraints_.clear();
-  for (std::uint32_t i = node; tree_.node(i).parent != TreeNode::kNoParent;
-       i = tree_.node(i).parent) {
-    if (tree_.node(i).constraint.robot == robot) apply(tree_.node(i).constraint, constraints_);
-  }
 }
 
 bool EcbsSearch::planChild(std::uint32_t parent, Child& child) {
@@ -209,7 +212,8 @@ bool EcbsSearch::planForSumOfCosts(const TreeNode& parent, Child& child) {
   const std::uint32_t bound = shortestUnderConstraints(robot);
   if (bound == kForever) return false;
   child.node.robot_bound = bound;
-  child.node.lower_bound = parent.lower_bound + bound - bound_of_[robot];
+  child.node.bound_sum = parent.bound_sum + bound - bound_of_[robot];
+  child.node.lower_bound = std::max(parent.lower_bound, child.node.bound_sum);
   child.path = fewestCollisions(robot, bound, bound);
   return !child.path.empty();
 }
@@ -249,9 +253,24 @@ void EcbsSearch::completeChild(std::uint32_t parent, Child& child) {
   }
 }
 
-const Conflict& EcbsSearch::choose(const TreeNode& node) const {
-  return *std::min_element(node.conflicts.begin(), node.conflicts.end(),
-                           [](const Conflict& a, const Conflict& b) { return a.step < b.step; });
+std::optional<Conflict> EcbsSearch::choose(std::uint32_t number, bool ranked) {
+  TreeNode& node = tree_.node(number);
+  if (!ranked) {
+    return *std::min_element(node.conflicts.begin(), node.conflicts.end(),
+                             [](const Conflict& a, const Conflict& b) { return a.step < b.step; });
+  }
+  const std::uint64_t before = cardinality_.expansions();
+  const ConflictRanking ranking = cardinality_.rank(node, {bound_of_, constrained_at_});
+  low_level_.count(cardinality_.expansions() - before);
+  if (settings_.matching) {
+    const std::uint64_t bound = node.bound_sum + ranking.surplus;
+    if (bound > settings_.limit(tree_.lowerBound())) {
+      tree_.reopen(number, bound);
+      return std::nullopt;
+    }
+    node.lower_bound = std::max(node.lower_bound, bound);
+  }
+  return node.conflicts[ranking.chosen];
 }
 
 }  // namespace split_mapf

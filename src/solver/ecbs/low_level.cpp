@@ -55,10 +55,14 @@ bool LowLevel::stopped() {
   return interrupted_;
 }
 
+void LowLevel::count(std::uint64_t expansions) {
+  expansions_ += expansions;
+  exhausted_ = settings_.expansion_limit > 0 && expansions_ > settings_.expansion_limit;
+}
+
 Path LowLevel::run(const SearchQuery& query) {
   SearchAnswer answer = search_.search(query, deadline_);
-  expansions_ += answer.expansions;
-  exhausted_ = settings_.expansion_limit > 0 && expansions_ > settings_.expansion_limit;
+  count(answer.expansions);
   interrupted_ = interrupted_ || answer.interrupted || exhausted_;
   if (interrupted_) answer.path.clear();
   return std::move(answer.path);

@@ -30,6 +30,8 @@ class LowLevel {
   Path run(const SearchQuery& query);
   /// Whether the run has to end: by its deadline or its limit of expansions.
   bool stopped();
+  /// Adds work done elsewhere to the expansions of this run.
+  void count(std::uint64_t expansions);
   bool exhausted() const { return exhausted_; }
   std::uint64_t expansions() const { return expansions_; }
 

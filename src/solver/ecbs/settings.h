@@ -18,7 +18,9 @@ struct EcbsSettings {
   std::string order = "shortest_first";  ///< of the robots in the root's plan
   std::uint64_t detour = 100;  ///< steps a robot may go round before more weighs like collisions
   bool bypass = true;
-  bool targets = true;  ///< branch on arrival times where a robot runs into another's goal
+  bool targets = true;   ///< branch on arrival times where a robot runs into another's goal
+  bool cardinal = true;  ///< for sum of costs: first conflicts that raise both branches' bounds
+  bool matching = true;  ///< add what disjoint such conflicts cost to the lower bound
   std::uint64_t raise_every = 4;  ///< every so many nodes one of the least lower bound; 0: never
   std::uint64_t polish = 2;       ///< passes over the plan found in which robots get earlier paths
 
