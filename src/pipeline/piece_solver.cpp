@@ -66,8 +66,7 @@ std::vector<std::string> PieceSolver::rescuers() const {
 }
 
 std::uint32_t PieceSolver::threadsEach(std::size_t tasks) const {
-  const std::uint32_t asked = request_.asked.threads;
-  const std::uint32_t all = asked == 0 ? executor_.threads() : std::min(asked, executor_.threads());
+  const std::uint32_t all = executor_.threadsFor(request_.asked.threads);
   return tasks > 0 && tasks < all ? all / static_cast<std::uint32_t>(tasks) : 1;
 }
 

@@ -42,8 +42,7 @@ PlanRun::PlanRun(const Instance& instance, CheckedRequest request, const SolverR
   report_.split = asked.split;
   report_.objective = asked.objective;
   report_.seed = asked.seed;
-  report_.threads =
-      asked.threads == 0 ? executor.threads() : std::min(asked.threads, executor.threads());
+  report_.threads = executor.threadsFor(asked.threads);
   report_.robots = instance.robots();
 }
 

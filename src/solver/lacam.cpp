@@ -8,7 +8,6 @@
 
 #include "solver/lacam/lacam_search.h"
 #include "solver/lacam/settings.h"
-#include "solver/search/eviction_search.h"
 #include "solver/search/replan_singly.h"
 #include "split_mapf/core/compaction.h"
 #include "split_mapf/core/option_values.h"
@@ -49,24 +48,14 @@ std::optional<SolveResult> refuse(const Instance& instance, const LacamSettings&
 /// Gives robots earlier paths until passes, expansions or time run out. The plan stays valid.
 void polish(const Instance& instance, const LacamSettings& settings, const Deadline& deadline,
             SolveResult& result) {
-  std::vector<Path>& paths = result.plan->paths;
-  PathTable table(instance.graph().size());
-  for (std::uint32_t i = 0; i < instance.robots(); ++i) table.insert(i, paths[i]);
-  EvictionSearch search(instance.graph());
-  const FindPath find = [&](std::uint32_t robot, std::uint32_t latest_arrival) {
-    EvictionQuery query;
-    query.start = instance.start(robot);
-    query.distances = &instance.distances(robot);
-    query.placed = &table;
-    query.latest_arrival = latest_arrival;
-    EvictionAnswer answer = search.search(query, deadline);
-    result.low_level_expansions += answer.expansions;
-    return std::move(answer.path);
-  };
   std::uint64_t limit = result.low_level_expansions + result.low_level_expansions / kPolishShare;
   if (settings.expansion_limit > 0) limit = std::min(limit, settings.expansion_limit);
-  const auto stopped = [&] { return deadline.expired() || result.low_level_expansions >= limit; };
-  replanSingly(instance, settings.polish, find, stopped, paths, table);
+  if (result.low_level_expansions >= limit) return;
+  const auto go_on = [&](std::uint64_t expansions) {
+    result.low_level_expansions += expansions;
+    return result.low_level_expansions < limit;
+  };
+  result.plan = replanSingly(instance, *std::move(result.plan), settings.polish, deadline, go_on);
 }
 
 void reportFailure(LacamSearch::Outcome outcome, const LacamSettings& settings,
@@ -140,7 +129,7 @@ SolveResult LacamSolver::solve(const Instance& instance, const Deadline& deadlin
   }
   result.termination = Termination::kSolved;
   result.plan = compact(search.plan(), instance.graph().size());
-  if (settings_->polish > 0) polish(instance, *settings_, deadline, result);
+  polish(instance, *settings_, deadline, result);
   certifyByLowerBound(result, settings_->objective, "lacam");
   return result;
 }

@@ -92,19 +92,9 @@ bool PrioritizedRun::repair(const std::vector<std::uint32_t>& left_over, std::ui
 }
 
 void PrioritizedRun::polish() {
-  EvictionSearch search(instance_.graph());
-  const FindPath find = [&](std::uint32_t robot, std::uint32_t latest_arrival) {
-    EvictionQuery query;
-    query.start = instance_.start(robot);
-    query.distances = &instance_.distances(robot);
-    query.placed = &table_;
-    query.latest_arrival = latest_arrival;
-    EvictionAnswer answer = search.search(query, effort_.deadline());
-    effort_.spend(answer.expansions, answer.interrupted);
-    return std::move(answer.path);
-  };
-  replanSingly(
-      instance_, settings_.polish, find, [&] { return effort_.stopped(); }, plan_.paths, table_);
+  plan_ =
+      replanSingly(instance_, std::move(plan_), settings_.polish, effort_.deadline(),
+                   [this](std::uint64_t expansions) { return effort_.spend(expansions, false); });
 }
 
 }  // namespace

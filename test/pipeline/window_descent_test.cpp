@@ -39,13 +39,15 @@ TEST(WindowDescent, TakesTheStepsOutOfTheWindowThatHasThem) {
   }
 }
 
-TEST(WindowDescent, SeamsInsideADetourKeepIt) {
+TEST(WindowDescent, WhereEveryWindowIsNeededNothingIsFound) {
   Dawdler dawdler;
+  const Plan direct = {{{0, 1, 2, 3, 4, 5, 6, 7}, {8}}};
   Executor executor(1);
-  // Between steps 1 and 3 the robot is back where it was, so the two windows of one step have
-  // nothing to give, and neither has any other.
-  EXPECT_FALSE(shortenWindows(dawdler.instance, dawdler.plan, windowsOf(1, 1, "ecbs"),
-                              builtinSolvers(), executor, Deadline()));
+  for (const std::uint32_t width : {1U, 2U, 3U, 7U}) {
+    EXPECT_FALSE(shortenWindows(dawdler.instance, direct, windowsOf(width, 1, "ecbs"),
+                                builtinSolvers(), executor, Deadline()))
+        << "windows of " << width;
+  }
 }
 
 TEST(WindowDescent, AnExpiredDeadlineFindsNothing) {

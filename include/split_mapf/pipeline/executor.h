@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -21,6 +22,10 @@ class Executor {
   Executor& operator=(const Executor&) = delete;
 
   std::uint32_t threads() const { return threads_; }
+  /// How many of them a caller gets that asks for so many (0: all).
+  std::uint32_t threadsFor(std::uint32_t asked) const {
+    return asked == 0 ? threads_ : std::min(asked, threads_);
+  }
 
   /// One piece of work and how much of it is expected, in any unit.
   struct Job {

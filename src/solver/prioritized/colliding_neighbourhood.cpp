@@ -2,13 +2,9 @@
 
 #include <algorithm>
 
-#include "solver/search/drawing.h"
-
 namespace split_mapf {
 namespace {
 
-constexpr double kForgetting = 0.02;
-constexpr double kLeastWeight = 1e-9;
 constexpr std::uint32_t kNobody = 0xffffffffU;
 
 }  // namespace
@@ -20,18 +16,12 @@ CollidingNeighbourhoodPicker::CollidingNeighbourhoodPicker(const Instance& insta
       at_goal_(instance.graph().size(), kNobody),
       marks_(instance.robots(), 0) {
   for (std::uint32_t i = 0; i < instance.robots(); ++i) at_goal_[instance.goal(i)] = i;
-  way_weights_.fill(1.0);
-  size_weights_.fill(1.0);
 }
 
 void CollidingNeighbourhoodPicker::reward(std::uint64_t gain, std::uint64_t expansions) {
-  const double rate =
-      1000.0 * static_cast<double>(gain) / (200.0 + static_cast<double>(expansions));
-  const auto learn = [rate](double& weight) {
-    weight = std::max(weight + kForgetting * (rate - weight), kLeastWeight);
-  };
-  learn(way_weights_[way_]);
-  learn(size_weights_[size_choice_]);
+  const double rate = gainRate(gain, expansions);
+  ways_.reward(rate);
+  sizes_.reward(rate);
 }
 
 bool CollidingNeighbourhoodPicker::add(std::uint32_t robot, std::vector<std::uint32_t>& robots) {
@@ -96,13 +86,12 @@ void CollidingNeighbourhoodPicker::pick(const std::vector<Path>& paths, const Pa
                                         std::vector<std::uint32_t>& robots) {
   robots.clear();
   ++pick_number_;
-  way_ = drawByWeight(way_weights_, engine_);
-  size_choice_ = drawByWeight(size_weights_, engine_);
-  size_ = std::min<std::size_t>(kSizes[size_choice_], instance_.robots());
+  const std::size_t way = ways_.draw(engine_);
+  size_ = std::min<std::size_t>(kSizes[sizes_.draw(engine_)], instance_.robots());
   add(draw(graph.colliding()), robots);
-  if (way_ == kCollisions) takeCollisions(graph, robots);
-  if (way_ == kEnds) takeAtEnds(paths[robots.front()], table, robots);
-  if (way_ == kRandom) {
+  if (way == kCollisions) takeCollisions(graph, robots);
+  if (way == kEnds) takeAtEnds(paths[robots.front()], table, robots);
+  if (way == kRandom) {
     while (robots.size() < size_) {
       add(static_cast<std::uint32_t>(drawBelow(engine_, instance_.robots())), robots);
     }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/prioritized/collision_graph.h"
+#include "solver/search/adaptive_choice.h"
 #include "solver/search/path_table.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"
@@ -44,10 +45,8 @@ class CollidingNeighbourhoodPicker {
   const Instance& instance_;
   RandomEngine engine_;
   std::vector<std::uint32_t> at_goal_;  // by vertex: whose goal it is
-  std::array<double, kWays> way_weights_;
-  std::array<double, kSizes.size()> size_weights_;
-  std::size_t way_ = 0;
-  std::size_t size_choice_ = 0;
+  AdaptiveChoice<kWays> ways_;
+  AdaptiveChoice<kSizes.size()> sizes_;
   std::size_t size_ = 0;              // of the current neighbourhood
   std::vector<std::uint32_t> marks_;  // by robot: number of the last pick that took it
   std::uint32_t pick_number_ = 0;

@@ -2,31 +2,15 @@
 
 #include <algorithm>
 
-#include "solver/search/drawing.h"
-
 namespace split_mapf {
-namespace {
-
-constexpr double kFirstWeight = 1.0;
-constexpr double kForgetting = 0.02;
-
-}  // namespace
 
 NeighbourhoodPicker::NeighbourhoodPicker(const Instance& instance, std::uint64_t seed)
-    : instance_(instance), engine_(seed), marks_(instance.robots(), 0) {
-  way_weights_.fill(kFirstWeight);
-  size_weights_.fill(kFirstWeight);
-}
+    : instance_(instance), engine_(seed), marks_(instance.robots(), 0) {}
 
 void NeighbourhoodPicker::reward(std::uint64_t gain, std::uint64_t expansions) {
-  const double rate =
-      1000.0 * static_cast<double>(gain) / (200.0 + static_cast<double>(expansions));
-  const auto learn = [rate](double& weight) {
-    weight += kForgetting * (rate - weight);
-    weight = std::max(weight, 1e-9);
-  };
-  learn(way_weights_[way_]);
-  learn(size_weights_[size_]);
+  const double rate = gainRate(gain, expansions);
+  ways_.reward(rate);
+  sizes_.reward(rate);
 }
 
 void NeighbourhoodPicker::add(std::uint32_t robot, std::vector<std::uint32_t>& robots) {
@@ -134,15 +118,14 @@ void NeighbourhoodPicker::pick(const Plan& plan, const PathTable& table,
                                std::vector<std::uint32_t>& robots) {
   robots.clear();
   ++pick_number_;
-  way_ = drawByWeight(way_weights_, engine_);
-  size_ = drawByWeight(size_weights_, engine_);
-  const std::size_t size = std::min<std::size_t>(kSizes[size_], instance_.robots());
+  const std::size_t way = ways_.draw(engine_);
+  const std::size_t size = std::min<std::size_t>(kSizes[sizes_.draw(engine_)], instance_.robots());
   const std::uint32_t robot = drawDelayed(plan);
   add(robot, robots);
-  if (way_ == kInTheWay) walkInTheWay(plan, table, robot, size, robots);
-  if (way_ == kAroundArrival) takeAroundArrival(plan, table, robot, size, robots);
-  if (way_ == kCrowd) takeCrowd(plan, table, robot, size, robots);
-  if (way_ == kRandom) {
+  if (way == kInTheWay) walkInTheWay(plan, table, robot, size, robots);
+  if (way == kAroundArrival) takeAroundArrival(plan, table, robot, size, robots);
+  if (way == kCrowd) takeCrowd(plan, table, robot, size, robots);
+  if (way == kRandom) {
     while (robots.size() < size) {
       add(static_cast<std::uint32_t>(drawBelow(engine_, instance_.robots())), robots);
     }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/search/adaptive_choice.h"
 #include "solver/search/path_table.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"
@@ -42,10 +43,8 @@ class NeighbourhoodPicker {
 
   const Instance& instance_;
   RandomEngine engine_;
-  std::array<double, kWays> way_weights_;
-  std::array<double, kSizes.size()> size_weights_;
-  std::size_t way_ = 0;
-  std::size_t size_ = 0;
+  AdaptiveChoice<kWays> ways_;
+  AdaptiveChoice<kSizes.size()> sizes_;
   std::vector<std::uint32_t> marks_;  // by robot: number of the last pick that took it
   std::uint32_t pick_number_ = 0;
 };

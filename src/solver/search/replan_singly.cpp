@@ -43,21 +43,26 @@ void replanSingly(const Instance& instance, std::uint64_t passes, const FindPath
 }
 
 Plan replanSingly(const Instance& instance, Plan plan, std::uint64_t passes,
-                  const Deadline& deadline) {
+                  const Deadline& deadline,
+                  const std::function<bool(std::uint64_t expansions)>& go_on) {
   trimToArrival(plan);
+  if (passes == 0) return plan;
   PathTable table(instance.graph().size());
   for (std::uint32_t i = 0; i < instance.robots(); ++i) table.insert(i, plan.paths[i]);
   EvictionSearch search(instance.graph());
+  bool spent = false;
   const FindPath find = [&](std::uint32_t robot, std::uint32_t latest_arrival) {
     EvictionQuery query;
     query.start = instance.start(robot);
     query.distances = &instance.distances(robot);
     query.placed = &table;
     query.latest_arrival = latest_arrival;
-    return search.search(query, deadline).path;
+    EvictionAnswer answer = search.search(query, deadline);
+    spent = go_on && !go_on(answer.expansions);
+    return std::move(answer.path);
   };
-  replanSingly(
-      instance, passes, find, [&] { return deadline.expired(); }, plan.paths, table);
+  const auto stopped = [&] { return spent || deadline.expired(); };
+  replanSingly(instance, passes, find, stopped, plan.paths, table);
   return plan;
 }
 

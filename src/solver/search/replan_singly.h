@@ -24,8 +24,10 @@ using FindPath = std::function<Path(std::uint32_t robot, std::uint32_t latest_ar
 /// for, which is taken out meanwhile.
 void replanSingly(const Instance& instance, std::uint64_t passes, const FindPath& find,
                   const std::function<bool()>& stopped, std::vector<Path>& paths, PathTable& table);
-/// The same with the earliest arrivals that the others leave open, until the deadline.
+/// The same with the earliest arrivals that the others leave open, until the deadline, or until
+/// `go_on`, asked after every search with the states that it expanded, says no (null: it is not).
 Plan replanSingly(const Instance& instance, Plan plan, std::uint64_t passes,
-                  const Deadline& deadline);
+                  const Deadline& deadline,
+                  const std::function<bool(std::uint64_t expansions)>& go_on = nullptr);
 
 }  // namespace split_mapf
