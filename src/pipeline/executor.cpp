@@ -83,7 +83,7 @@ void Executor::run(std::vector<Job> jobs, std::uint32_t threads, const Deadline&
   std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) {
     return a.expected_effort > b.expected_effort;
   });
-  const std::uint32_t allowed = threads == 0 ? threads_ : std::min(threads, threads_);
+  const std::uint32_t allowed = threadsFor(threads);
   const std::size_t drawers = std::min<std::size_t>(allowed, jobs.size());
   const auto batch = std::make_shared<Batch>(std::move(jobs));
   for (std::size_t posted = 0; posted < drawers; ++posted) {
@@ -100,7 +100,7 @@ void Executor::run(std::vector<Job> jobs, std::uint32_t threads, const Deadline&
 
 void Executor::forEach(std::uint32_t count, const std::function<void(std::uint32_t)>& body,
                        std::uint32_t threads, const Deadline& deadline) {
-  const std::uint32_t allowed = threads == 0 ? threads_ : std::min(threads, threads_);
+  const std::uint32_t allowed = threadsFor(threads);
   const std::uint32_t chunks = std::min(count, allowed * 8);
   std::vector<Job> jobs(chunks);
   for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) {
