@@ -3,9 +3,12 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 
-#include "solver/ecbs/ecbs_search.h"
+#include "solver/ecbs/ecbs_run.h"
+#include "solver/ecbs/robot_groups.h"
 #include "solver/ecbs/settings.h"
+#include "solver/search/replan_singly.h"
 #include "solver/search/robot_order.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/option_values.h"
@@ -29,6 +32,8 @@ EcbsSolver::EcbsSolver(const SolverOptions& options) : settings_(new EcbsSetting
   settings.targets = values.flag("targets", settings.targets);
   settings.cardinal = values.flag("cardinal", settings.cardinal);
   settings.matching = values.flag("matching", settings.matching);
+  settings.corridor = values.flag("corridor", settings.corridor);
+  settings.independence = values.flag("independence", settings.independence);
   settings.raise_every = values.count("raise_every", settings.raise_every);
   settings.polish = values.count("polish", settings.polish);
 }
@@ -51,6 +56,10 @@ SolverInfo EcbsSolver::info() {
         "for sum of costs: branch first on conflicts that raise the bound in both branches"},
        {"matching", flag(defaults.matching),
         "add what disjoint cardinal conflicts cost to the lower bound; only with cardinal"},
+       {"corridor", flag(defaults.corridor),
+        "branch on who comes first where robots meet head on in a corridor"},
+       {"independence", flag(defaults.independence),
+        "for w up to 1.1: plan groups of robots that do not meet apart"},
        {"raise_every", std::to_string(defaults.raise_every),
         "every so many nodes the one of the least lower bound; 0: never"},
        {"polish", std::to_string(defaults.polish),
@@ -60,7 +69,21 @@ SolverInfo EcbsSolver::info() {
 
 SolveResult EcbsSolver::solve(const Instance& instance, const Deadline& deadline) const {
   if (const auto robot = findCutOffRobot(instance)) return cutOffResult(*robot);
-  return EcbsSearch(instance, *settings_, deadline).run();
+  EcbsRun run(instance, *settings_, deadline);
+  SolveResult result = RobotGroups(run).solve();
+  if (result.termination == Termination::kSolved) {
+    const FindPath find = [&](std::uint32_t robot, std::uint32_t latest_arrival) {
+      return run.low_level.run(run.low_level.collisionFree(robot, latest_arrival));
+    };
+    replanSingly(
+        instance, settings_->polish, find, [&] { return run.low_level.stopped(); }, run.paths,
+        run.table);
+    result.plan = Plan{std::move(run.paths)};
+    result.message.clear();
+  }
+  result.low_level_expansions = run.low_level.expansions();
+  certifyByLowerBound(result, settings_->objective, "ecbs");
+  return result;
 }
 
 }  // namespace split_mapf

@@ -18,7 +18,7 @@ using test::oracleCases;
 
 constexpr double kPatienceSec = 60;
 
-/// Parameters: w in per cent, objective, whether conflicts are ranked.
+/// Parameters: w in per cent, objective, whether the techniques that matter near w = 1 are used.
 class EcbsBound : public ::testing::TestWithParam<std::tuple<int, Objective, bool>> {
  protected:
   double suboptimality() const { return std::get<0>(GetParam()) / 100.0; }
@@ -28,7 +28,9 @@ class EcbsBound : public ::testing::TestWithParam<std::tuple<int, Objective, boo
     SolverOptions options;
     options.objective = objective();
     options.suboptimality = suboptimality();
-    options.values["cardinal"] = std::get<2>(GetParam()) ? "true" : "false";
+    for (const char* name : {"cardinal", "corridor", "independence"}) {
+      options.values[name] = std::get<2>(GetParam()) ? "true" : "false";
+    }
     return builtinSolvers().create("ecbs", options)->solve(instance, Deadline(kPatienceSec));
   }
 
@@ -114,6 +116,7 @@ INSTANTIATE_TEST_SUITE_P(
                                          std::pair<std::string, std::string>("targets", "false"),
                                          std::pair<std::string, std::string>("cardinal", "false"),
                                          std::pair<std::string, std::string>("matching", "false"),
+                                         std::pair<std::string, std::string>("corridor", "false"),
                                          std::pair<std::string, std::string>("raise_every", "1"),
                                          std::pair<std::string, std::string>("polish", "0")),
                        ::testing::Values(Objective::kMakespan, Objective::kSumOfCosts)),
@@ -130,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(Weights, EcbsBound,
                          [](const auto& info) {
                            return "w" + std::to_string(std::get<0>(info.param)) + "_" +
                                   toString(std::get<1>(info.param)) +
-                                  (std::get<2>(info.param) ? "_cardinal" : "");
+                                  (std::get<2>(info.param) ? "" : "_plain");
                          });
 
 }  // namespace

@@ -33,9 +33,15 @@ void ConflictFinder::find(std::uint32_t robot, const Path& path, const PathTable
   }
 }
 
+void ConflictFinder::attendOnlyTo(const std::vector<std::uint32_t>& robots) {
+  std::fill(slot_.begin(), slot_.end(), kIgnored);
+  for (const std::uint32_t robot : robots) slot_[robot] = kNoSlot;
+}
+
 void ConflictFinder::note(const Conflict& conflict, std::uint32_t other, std::size_t first,
                           std::vector<Conflict>& out) {
   std::uint32_t& slot = slot_[other];
+  if (slot == kIgnored) return;
   if (slot == kNoSlot) {
     slot = static_cast<std::uint32_t>(out.size() - first);
     out.push_back(conflict);

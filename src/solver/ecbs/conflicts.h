@@ -29,6 +29,8 @@ class ConflictFinder {
   /// @param targets  whether to tell kTarget from kVertex.
   explicit ConflictFinder(std::uint32_t robots, bool targets = true)
       : targets_(targets), slot_(robots, kNoSlot) {}
+  /// From now on finds none with other robots than these.
+  void attendOnlyTo(const std::vector<std::uint32_t>& robots);
   /// Appends the earliest conflict of `robot` on `path` with each other robot of the table.
   /// Cost: the visits at the vertices of the path.
   void find(std::uint32_t robot, const Path& path, const PathTable& table,
@@ -36,6 +38,7 @@ class ConflictFinder {
 
  private:
   static constexpr std::uint32_t kNoSlot = 0xffffffffU;
+  static constexpr std::uint32_t kIgnored = 0xfffffffeU;
   void note(const Conflict& conflict, std::uint32_t other, std::size_t first,
             std::vector<Conflict>& out);
 

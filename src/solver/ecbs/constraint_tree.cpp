@@ -37,7 +37,7 @@ std::uint32_t ConstraintTree::lowest() {
 }
 
 std::uint32_t ConstraintTree::best() {
-  const std::uint64_t most = settings_.limit(lowerBound());
+  const std::uint64_t most = limit(lowerBound());
   while (!waiting_.empty() && waiting_.top().key <= most) {
     const std::uint32_t number = waiting_.top().node;
     waiting_.pop();

@@ -30,7 +30,15 @@ struct TreeNode {
 /// cost is at most w times the least lower bound, fewest conflicts first.
 class ConstraintTree {
  public:
-  explicit ConstraintTree(const EcbsSettings& settings) : settings_(settings) {}
+  /// @param others_bound, others_cost  of robots outside the tree, for sum of costs.
+  explicit ConstraintTree(const EcbsSettings& settings, std::uint64_t others_bound = 0,
+                          std::uint64_t others_cost = 0)
+      : settings_(settings), others_bound_(others_bound), others_cost_(others_cost) {}
+
+  /// The greatest cost allowed under a lower bound of the tree's robots.
+  std::uint64_t limit(std::uint64_t lower_bound) const {
+    return settings_.limit(lower_bound + others_bound_) - others_cost_;
+  }
 
   std::uint32_t addPath(Path path);
   const Path& path(std::uint32_t number) const { return paths_[number]; }
@@ -68,6 +76,8 @@ class ConstraintTree {
   void dropClosed(Queue& queue);
 
   const EcbsSettings& settings_;
+  const std::uint64_t others_bound_;
+  const std::uint64_t others_cost_;
   std::deque<TreeNode> nodes_;
   std::deque<Path> paths_;
   Queue open_;     // by lower bound

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "solver/ecbs/root_plan.h"
-#include "solver/search/replan_singly.h"
-
 namespace split_mapf {
 namespace {
 
@@ -15,81 +12,72 @@ std::uint32_t lengthOf(const Path& path) { return static_cast<std::uint32_t>(pat
 
 }  // namespace
 
-EcbsSearch::EcbsSearch(const Instance& instance, const EcbsSettings& settings,
-                       const Deadline& deadline)
-    : instance_(instance),
-      settings_(settings),
-      deadline_(deadline),
-      tree_(settings),
-      table_(instance.graph().size()),
-      low_level_(instance, settings, table_, deadline),
-      finder_(instance.robots(), settings.targets),
-      cardinality_(instance, deadline, tree_),
-      path_of_(instance.robots(), kNoPath),
-      bound_of_(instance.robots(), 0),
-      constrained_at_(instance.robots(), TreeNode::kNoParent),
-      wanted_path_(instance.robots(), kNoPath),
-      seen_path_(instance.robots(), 0),
-      seen_bound_(instance.robots(), 0) {}
+EcbsSearch::EcbsSearch(EcbsRun& run, GroupTask task)
+    : run_(run),
+      instance_(run.instance),
+      settings_(run.settings),
+      table_(run.table),
+      low_level_(run.low_level),
+      robots_(std::move(task.robots)),
+      first_bound_(task.lower_bound),
+      tree_(settings_, task.others_bound, task.others_cost),
+      finder_(instance_.robots(), settings_.targets),
+      cardinality_(instance_, run.deadline, tree_),
+      corridors_(instance_),
+      path_of_(instance_.robots(), kNoPath),
+      bound_of_(instance_.robots(), 0),
+      constrained_at_(instance_.robots(), TreeNode::kNoParent),
+      wanted_path_(instance_.robots(), kNoPath),
+      seen_path_(instance_.robots(), 0),
+      seen_bound_(instance_.robots(), 0) {
+  finder_.attendOnlyTo(robots_);
+  plantRoot(std::move(task.conflicts));
+}
 
 SolveResult EcbsSearch::run() {
   SolveResult result;
+  result.lower_bound = first_bound_;
   bool done = false;
   const bool ranks = settings_.cardinal && settings_.objective == Objective::kSumOfCosts;
-  std::uint64_t lower_bound = lowerBound(instance_, settings_.objective);
-  if (plantRoot()) {
-    while (!done && !low_level_.stopped() && !tree_.empty()) {
-      lower_bound = tree_.lowerBound();
-      // Otherwise FOCAL can descend for ever below a bound that nobody raises.
-      const bool raise =
-          settings_.raise_every > 0 &&
-          result.high_level_nodes % settings_.raise_every == settings_.raise_every - 1;
-      const std::uint32_t node = raise ? tree_.lowest() : tree_.best();
-      ++result.high_level_nodes;
-      // Elsewhere FOCAL wants fewer conflicts, not higher bounds, and gets them sooner unranked.
-      const bool ranked = ranks && (raise || settings_.suboptimality == 1);
-      done = expand(node, ranked, result);
-    }
+  while (!done && !low_level_.stopped() && !tree_.empty()) {
+    result.lower_bound = tree_.lowerBound();
+    // Otherwise FOCAL can descend for ever below a bound that nobody raises.
+    const bool raise = settings_.raise_every > 0 &&
+                       result.high_level_nodes % settings_.raise_every == settings_.raise_every - 1;
+    const std::uint32_t node = raise ? tree_.lowest() : tree_.best();
+    ++result.high_level_nodes;
+    // Elsewhere FOCAL wants fewer conflicts, not higher bounds, and gets them sooner unranked.
+    done = expand(node, ranks && (raise || settings_.suboptimality == 1));
   }
-  if (!done && low_level_.exhausted()) {
-    result = outOfExpansions(settings_.expansion_limit);
-  } else if (!done) {
-    const bool stopped = low_level_.stopped();
-    result.termination = stopped ? interruptionOf(deadline_) : Termination::kUnsolvable;
-    if (!stopped) result.message = "the constraint tree is exhausted: no plan exists";
+  if (done) {
+    handOver();
+    result.termination = Termination::kSolved;
+  } else if (low_level_.stopped()) {
+    result.termination = interruptionOf(run_.deadline);
+  } else {
+    result.termination = Termination::kUnsolvable;
+    result.message = "the constraint tree is exhausted: no plan exists";
   }
-  return finish(std::move(result), lower_bound);
-}
-
-SolveResult EcbsSearch::finish(SolveResult result, std::uint64_t lower_bound) {
-  result.lower_bound = lower_bound;
-  if (result.plan) {
-    const FindPath find = [this](std::uint32_t robot, std::uint32_t latest_arrival) {
-      return low_level_.run(low_level_.collisionFree(robot, latest_arrival));
-    };
-    replanSingly(
-        instance_, settings_.polish, find, [this] { return low_level_.stopped(); },
-        result.plan->paths, table_);
-  }
-  result.low_level_expansions = low_level_.expansions();
-  certifyByLowerBound(result, settings_.objective, "ecbs");
   return result;
 }
 
-bool EcbsSearch::plantRoot() {
-  std::optional<RootPlan> plan = makeRootPlan(instance_, settings_, low_level_, table_, finder_);
-  if (!plan) return false;
+void EcbsSearch::plantRoot(std::vector<Conflict> conflicts) {
   TreeNode root;
-  root.lower_bound = lowerBound(instance_, settings_.objective);
-  root.bound_sum = lowerBound(instance_, Objective::kSumOfCosts);
-  root.conflicts = std::move(plan->conflicts);
-  root.cost = costOf(Plan{plan->paths}, settings_.objective);
-  for (std::uint32_t robot = 0; robot < instance_.robots(); ++robot) {
-    path_of_[robot] = tree_.addPath(std::move(plan->paths[robot]));
+  root.conflicts = std::move(conflicts);
+  for (const std::uint32_t robot : robots_) {
+    const std::uint32_t cost = lengthOf(run_.paths[robot]);
+    const bool makespan = settings_.objective == Objective::kMakespan;
+    root.cost = makespan ? std::max<std::uint64_t>(root.cost, cost) : root.cost + cost;
+    root.bound_sum += instance_.shortestLength(robot);
+    path_of_[robot] = tree_.addPath(run_.paths[robot]);
     root.paths.emplace_back(robot, path_of_[robot]);
   }
+  root.lower_bound = first_bound_;
   tree_.add(std::move(root));
-  return true;
+}
+
+void EcbsSearch::handOver() {
+  for (const std::uint32_t robot : robots_) run_.paths[robot] = tree_.path(path_of_[robot]);
 }
 
 void EcbsSearch::usePath(std::uint32_t robot, std::uint32_t number) {
@@ -101,7 +89,7 @@ void EcbsSearch::usePath(std::uint32_t robot, std::uint32_t number) {
 
 void EcbsSearch::load(std::uint32_t node) {
   ++loads_;
-  for (std::uint32_t robot = 0; robot < instance_.robots(); ++robot) {
+  for (const std::uint32_t robot : robots_) {
     bound_of_[robot] = instance_.shortestLength(robot);
     constrained_at_[robot] = TreeNode::kNoParent;
   }
@@ -118,17 +106,17 @@ void EcbsSearch::load(std::uint32_t node) {
     bound_of_[at.constraint.robot] = at.robot_bound;
     constrained_at_[at.constraint.robot] = i;
   }
-  for (std::uint32_t robot = 0; robot < instance_.robots(); ++robot) {
+  for (const std::uint32_t robot : robots_) {
     usePath(robot, wanted_path_[robot]);
   }
 }
 
-bool EcbsSearch::expand(std::uint32_t node, bool ranked, SolveResult& result) {
+bool EcbsSearch::expand(std::uint32_t node, bool ranked) {
   load(node);
   while (!tree_.node(node).conflicts.empty()) {
     const std::optional<Conflict> conflict = choose(node, ranked);
     if (!conflict || low_level_.stopped()) return false;
-    const Branches branches = branchOn(*conflict);
+    const Branches branches = branchesOf(node, *conflict);
     std::optional<Child> first = makeChild(node, branches.first);
     if (low_level_.stopped()) return false;
     if (first && adoptInstead(node, *first)) continue;
@@ -144,11 +132,22 @@ bool EcbsSearch::expand(std::uint32_t node, bool ranked, SolveResult& result) {
     tree_.close(node);
     return false;
   }
-  Plan plan;
-  for (const std::uint32_t number : path_of_) plan.paths.push_back(tree_.path(number));
-  result.plan = std::move(plan);
-  result.termination = Termination::kSolved;
   return true;
+}
+
+Branches EcbsSearch::branchesOf(std::uint32_t node, const Conflict& conflict) {
+  if (!settings_.corridor) return branchOn(conflict);
+  const auto traveller = [&](std::uint32_t robot, RobotConstraints& constraints) {
+    constraints.clear();
+    tree_.gatherConstraints(node, robot, constraints);
+    return CorridorReasoning::Traveller{robot, tree_.path(path_of_[robot]), constraints};
+  };
+  const std::uint64_t before = corridors_.expansions();
+  const std::optional<Branches> branches =
+      corridors_.branchOn(conflict, traveller(conflict.first, constraints_),
+                          traveller(conflict.second, others_constraints_));
+  low_level_.count(corridors_.expansions() - before);
+  return branches ? *branches : branchOn(conflict);
 }
 
 bool EcbsSearch::adoptInstead(std::uint32_t number, Child& child) {
@@ -160,7 +159,7 @@ bool EcbsSearch::adoptInstead(std::uint32_t number, Child& child) {
                                         ? settings_.limit(node.lower_bound)
                                         : settings_.limit(bound_of_[robot]);
   if (lengthOf(child.path) > robot_limit) return false;
-  if (child.node.cost > settings_.limit(tree_.lowerBound())) return false;
+  if (child.node.cost > tree_.limit(tree_.lowerBound())) return false;
   // A longer makespan is for a child to try, not for its parent to be stuck with.
   const bool longer = child.node.cost > std::max(node.cost, node.lower_bound);
   if (settings_.objective == Objective::kMakespan && longer) return false;
@@ -246,7 +245,7 @@ void EcbsSearch::completeChild(std::uint32_t parent, Child& child) {
     return;
   }
   child.node.cost = lengthOf(child.path);
-  for (std::uint32_t other = 0; other < instance_.robots(); ++other) {
+  for (const std::uint32_t other : robots_) {
     if (other == robot) continue;
     child.node.cost =
         std::max<std::uint64_t>(child.node.cost, lengthOf(tree_.path(path_of_[other])));
@@ -264,7 +263,7 @@ std::optional<Conflict> EcbsSearch::choose(std::uint32_t number, bool ranked) {
   low_level_.count(cardinality_.expansions() - before);
   if (settings_.matching) {
     const std::uint64_t bound = node.bound_sum + ranking.surplus;
-    if (bound > settings_.limit(tree_.lowerBound())) {
+    if (bound > tree_.limit(tree_.lowerBound())) {
       tree_.reopen(number, bound);
       return std::nullopt;
     }

@@ -1,29 +1,32 @@
 #include "solver/ecbs/root_plan.h"
 
-#include <cstdint>
+#include <algorithm>
 #include <utility>
 
 #include "solver/search/robot_order.h"
 
 namespace split_mapf {
 
-std::optional<RootPlan> makeRootPlan(const Instance& instance, const EcbsSettings& settings,
-                                     LowLevel& low_level, PathTable& table,
-                                     ConflictFinder& finder) {
-  RootPlan plan;
-  plan.paths.resize(instance.robots());
-  const std::uint32_t makespan = makespanLowerBound(instance);
-  RandomEngine engine(settings.seed);
-  for (const std::uint32_t robot : makeOrder(instance, settings.order, engine)) {
-    const std::uint32_t own = instance.shortestLength(robot);
-    const std::uint32_t bound = settings.objective == Objective::kMakespan ? makespan : own;
-    Path path = low_level.run(low_level.fewestCollisions(robot, bound, own));
-    if (low_level.stopped()) return std::nullopt;
-    finder.find(robot, path, table, plan.conflicts);
-    table.insert(robot, path);
-    plan.paths[robot] = std::move(path);
+std::optional<std::vector<Conflict>> makeRootPlan(EcbsRun& run,
+                                                  const std::vector<std::uint32_t>& robots,
+                                                  std::uint64_t bound, ConflictFinder& finder) {
+  for (const std::uint32_t robot : robots) {
+    if (!run.paths[robot].empty()) run.table.remove(robot, run.paths[robot]);
   }
-  return plan;
+  std::vector<Conflict> conflicts;
+  RandomEngine engine(run.settings.seed);
+  for (const std::uint32_t robot : makeOrder(run.instance, run.settings.order, engine)) {
+    if (!std::binary_search(robots.begin(), robots.end(), robot)) continue;
+    const std::uint32_t own = run.instance.shortestLength(robot);
+    const bool makespan = run.settings.objective == Objective::kMakespan;
+    const auto most = makespan ? static_cast<std::uint32_t>(bound) : own;
+    Path path = run.low_level.run(run.low_level.fewestCollisions(robot, most, own));
+    if (run.low_level.stopped()) return std::nullopt;
+    finder.find(robot, path, run.table, conflicts);
+    run.table.insert(robot, path);
+    run.paths[robot] = std::move(path);
+  }
+  return conflicts;
 }
 
 }  // namespace split_mapf

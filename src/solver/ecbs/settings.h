@@ -18,11 +18,18 @@ struct EcbsSettings {
   std::string order = "shortest_first";  ///< of the robots in the root's plan
   std::uint64_t detour = 100;  ///< steps a robot may go round before more weighs like collisions
   bool bypass = true;
-  bool targets = true;   ///< branch on arrival times where a robot runs into another's goal
-  bool cardinal = true;  ///< for sum of costs: first conflicts that raise both branches' bounds
-  bool matching = true;  ///< add what disjoint such conflicts cost to the lower bound
+  bool targets = true;       ///< branch on arrival times where a robot runs into another's goal
+  bool cardinal = true;      ///< for sum of costs: first conflicts that raise both branches' bounds
+  bool matching = true;      ///< add what disjoint such conflicts cost to the lower bound
+  bool corridor = true;      ///< branch on who comes first through a corridor
+  bool independence = true;  ///< near w = 1: plan groups of robots that do not meet apart
   std::uint64_t raise_every = 4;  ///< every so many nodes one of the least lower bound; 0: never
   std::uint64_t polish = 2;       ///< passes over the plan found in which robots get earlier paths
+
+  /// Measured: with much slack the tree over all robots hardly branches, and groups that merge
+  /// again and again take up to four times as long.
+  static constexpr double kMostForGroups = 1.1;
+  bool plansGroups() const { return independence && suboptimality <= kMostForGroups; }
 
   /// The greatest cost allowed under a lower bound.
   std::uint64_t limit(std::uint64_t lower_bound) const {
