@@ -5,7 +5,7 @@
 
 #include <boost/pending/disjoint_sets.hpp>
 
-#include "solver/search/eviction_search.h"
+#include "solver/search/path_table.h"
 #include "solver/search/path_table.h"
 
 namespace split_mapf {

@@ -34,8 +34,7 @@ class PrioritizedRun {
         settings_(settings),
         objective_(objective),
         seed_(seed),
-        effort_(effort),
-        table_(instance.graph().size()) {
+        effort_(effort) {
     plan_.paths.resize(instance.robots());
   }
 
@@ -54,7 +53,6 @@ class PrioritizedRun {
   Objective objective_;
   std::uint64_t seed_;
   Effort& effort_;
-  PathTable table_;
   Plan plan_;
   std::uint64_t tries_ = 0;
   std::string failure_;
@@ -64,7 +62,7 @@ bool PrioritizedRun::run() {
   const std::uint32_t slack = objective_ == Objective::kMakespan ? 0 : kSlack;
   const std::uint32_t horizon = makespanLowerBound(instance_) + slack;
   RandomEngine engine(seed_);
-  Placing placing(instance_, effort_, table_, plan_.paths);
+  Placing placing(instance_, effort_, plan_.paths);
   const std::vector<std::uint32_t> left_over =
       placing.run(makeOrder(instance_, settings_.order, engine), settings_.demotions, horizon);
   if (effort_.stopped()) return false;
@@ -75,7 +73,11 @@ bool PrioritizedRun::run() {
 }
 
 bool PrioritizedRun::repair(const std::vector<std::uint32_t>& left_over, std::uint32_t horizon) {
-  Repair repair(instance_, seed_, effort_, table_, plan_.paths);
+  PathTable table(instance_.graph().size());
+  for (std::uint32_t robot = 0; robot < instance_.robots(); ++robot) {
+    if (!plan_.paths[robot].empty()) table.insert(robot, plan_.paths[robot]);
+  }
+  Repair repair(instance_, seed_, effort_, table, plan_.paths);
   if (!repair.place(left_over, horizon)) return false;
   const std::uint64_t patience =
       std::max<std::uint64_t>(1, settings_.patience * std::max(kFewRobots, instance_.robots()));

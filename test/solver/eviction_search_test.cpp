@@ -157,7 +157,7 @@ TEST_P(RandomCases, LeastWeightThenEarliestArrival) {
   std::uint32_t found = 0;
   for (std::uint64_t seed = 0; seed < 4000; ++seed) {
     const Case c = randomCase(seed);
-    PathTable table(c.grid->size());
+    ReservationTable table(c.grid->size());
     for (std::uint32_t i = 0; i < c.placed.size(); ++i) table.insert(i, c.placed[i]);
     const DistanceTable distances(c.grid->graph(), c.goal);
     EvictionSearch search(c.grid->graph());
@@ -168,7 +168,7 @@ TEST_P(RandomCases, LeastWeightThenEarliestArrival) {
     query.weights = may_evict ? &c.weights : nullptr;
     query.departure = c.departure;
     query.latest_arrival = c.latest_arrival;
-    const EvictionAnswer answer = search.search(query, Deadline());
+    const GapAnswer answer = search.search(query, Deadline());
     const std::optional<Cost> best = leastCost(c, may_evict);
     ASSERT_EQ(!answer.path.empty(), best.has_value()) << "seed " << seed;
     if (!best) continue;
@@ -180,7 +180,7 @@ TEST_P(RandomCases, LeastWeightThenEarliestArrival) {
     for (std::uint32_t i = 0; i < c.placed.size(); ++i) {
       if (meets(c.placed[i], answer.path)) met.push_back(i);
     }
-    EXPECT_EQ(robotsInTheWay(table, answer.path), met) << "seed " << seed;
+    EXPECT_EQ(robotsInTheWay(table.paths(), answer.path), met) << "seed " << seed;
   }
   EXPECT_GT(found, 1000U);
 }
@@ -192,7 +192,7 @@ INSTANTIATE_TEST_SUITE_P(EvictionSearch, RandomCases, ::testing::Bool(),
 
 TEST(EvictionSearch, OneSearchServesManyQuestions) {
   const Case c = randomCase(7);
-  PathTable table(c.grid->size());
+  ReservationTable table(c.grid->size());
   EvictionSearch search(c.grid->graph());
   for (Vertex goal = 0; goal < c.grid->size(); ++goal) {
     const DistanceTable distances(c.grid->graph(), goal);

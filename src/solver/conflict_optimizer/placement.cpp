@@ -89,7 +89,7 @@ void Placement::searchBatch(std::uint32_t horizon, const Deadline& deadline) {
 
 bool Placement::place(Candidate& candidate) {
   Path& path = candidate.answer.path;
-  const std::vector<std::uint32_t> in_the_way = robotsInTheWay(table_, path);
+  const std::vector<std::uint32_t> in_the_way = robotsInTheWay(table_.paths(), path);
   for (const std::uint32_t other : in_the_way) {
     if (placed_in_[other] == batch_number_) return false;
   }

@@ -50,7 +50,7 @@ class Placement {
   struct Candidate {
     std::uint32_t robot = 0;
     std::uint32_t departure = 0;
-    EvictionAnswer answer;
+    GapAnswer answer;
   };
   void drawBatch(std::uint32_t horizon, const Effort& effort);
   void searchBatch(std::uint32_t horizon, const Deadline& deadline);
@@ -64,7 +64,7 @@ class Placement {
   RandomEngine engine_;
   ThreadTeam team_;
   std::vector<EvictionSearch> searches_;  // one a thread
-  PathTable table_;
+  ReservationTable table_;
   Plan plan_;                           // an empty path: waits
   std::deque<std::uint32_t> queue_;     // next first
   std::vector<std::uint32_t> queued_;   // how often, by robot

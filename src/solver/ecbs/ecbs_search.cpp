@@ -38,6 +38,7 @@ SolveResult EcbsSearch::run() {
   SolveResult result;
   result.lower_bound = first_bound_;
   bool done = false;
+  const bool ranks = settings_.cardinal && settings_.objective == Objective::kSumOfCosts;
   while (!done && !low_level_.stopped() && !tree_.empty()) {
     result.lower_bound = tree_.lowerBound();
     // Otherwise FOCAL can descend for ever below a bound that nobody raises.
@@ -45,7 +46,8 @@ SolveResult EcbsSearch::run() {
                        result.high_level_nodes % settings_.raise_every == settings_.raise_every - 1;
     const std::uint32_t node = raise ? tree_.lowest() : tree_.best();
     ++result.high_level_nodes;
-    done = expand(node);
+    // Elsewhere FOCAL wants fewer conflicts, not higher bounds, and gets them sooner unranked.
+    done = expand(node, ranks && (raise || settings_.suboptimality == 1));
   }
   if (done) {
     handOver();
@@ -109,10 +111,10 @@ void EcbsSearch::load(std::uint32_t node) {
   }
 }
 
-bool EcbsSearch::expand(std::uint32_t node) {
+bool EcbsSearch::expand(std::uint32_t node, bool ranked) {
   load(node);
   while (!tree_.node(node).conflicts.empty()) {
-    const std::optional<Conflict> conflict = choose(node);
+    const std::optional<Conflict> conflict = choose(node, ranked);
     if (!conflict || low_level_.stopped()) return false;
     const Branches branches = branchesOf(node, *conflict);
     std::optional<Child> first = makeChild(node, branches.first);
@@ -250,9 +252,9 @@ void EcbsSearch::completeChild(std::uint32_t parent, Child& child) {
   }
 }
 
-std::optional<Conflict> EcbsSearch::choose(std::uint32_t number) {
+std::optional<Conflict> EcbsSearch::choose(std::uint32_t number, bool ranked) {
   TreeNode& node = tree_.node(number);
-  if (!settings_.cardinal || settings_.objective == Objective::kMakespan) {
+  if (!ranked) {
     return *std::min_element(node.conflicts.begin(), node.conflicts.end(),
                              [](const Conflict& a, const Conflict& b) { return a.step < b.step; });
   }

@@ -16,7 +16,7 @@ PlanImprover::PlanImprover(const Instance& instance, std::uint64_t seed)
 
 Path PlanImprover::earliestPath(std::uint32_t robot, std::uint32_t latest_arrival,
                                 const Deadline& deadline) {
-  EvictionQuery query;
+  GapQuery query;
   query.start = instance_.start(robot);
   query.distances = &instance_.distances(robot);
   query.placed = &table_;
@@ -39,7 +39,7 @@ std::optional<Plan> PlanImprover::complete(const std::vector<UsedPath>& used,
   };
   std::stable_sort(order.begin(), order.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return certainty(a) > certainty(b); });
-  table_.clear();
+  table_ = ReservationTable(instance_.graph().size());
   Plan plan;
   plan.paths.resize(instance_.robots());
   for (const std::uint32_t robot : order) {
@@ -48,7 +48,7 @@ std::optional<Plan> PlanImprover::complete(const std::vector<UsedPath>& used,
       path = *best[robot]->path;
       path.resize(costOf(path) + std::size_t{1});
     }
-    if (path.empty() || !robotsInTheWay(table_, path).empty()) {
+    if (path.empty() || !robotsInTheWay(table_.paths(), path).empty()) {
       path = earliestPath(robot, latest_arrival, deadline);
     }
     if (path.empty()) return std::nullopt;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "solver/ilp/conflict_row.h"
-#include "solver/search/eviction_search.h"
+#include "solver/search/gap_search.h"
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"
@@ -33,8 +33,8 @@ class PlanImprover {
 
   const Instance& instance_;
   std::uint64_t seed_;  // of the next improvement
-  EvictionSearch search_;
-  PathTable table_;
+  GapSearch search_;
+  ReservationTable table_;
 };
 
 }  // namespace split_mapf::ilp

@@ -11,11 +11,10 @@ constexpr std::uint32_t kMostCounted = 1000;
 
 }  // namespace
 
-Placing::Placing(const Instance& instance, Effort& effort, PathTable& table,
-                 std::vector<Path>& paths)
+Placing::Placing(const Instance& instance, Effort& effort, std::vector<Path>& paths)
     : instance_(instance),
       effort_(effort),
-      table_(table),
+      table_(instance.graph().size()),
       paths_(paths),
       search_(instance.graph()),
       weights_(instance.robots(), 1),
@@ -34,14 +33,14 @@ std::vector<std::uint32_t> Placing::run(const std::vector<std::uint32_t>& order,
   return left_over;
 }
 
-EvictionAnswer Placing::search(std::uint32_t robot, std::uint32_t horizon, bool demote) {
+GapAnswer Placing::search(std::uint32_t robot, std::uint32_t horizon, bool demote) {
   EvictionQuery query;
   query.start = instance_.start(robot);
   query.distances = &instance_.distances(robot);
   query.placed = &table_;
   query.weights = demote ? &weights_ : nullptr;
   query.latest_arrival = horizon;
-  EvictionAnswer answer = search_.search(query, effort_.deadline());
+  GapAnswer answer = search_.search(query, effort_.deadline());
   if (!effort_.spend(answer.expansions, answer.interrupted)) answer.path.clear();
   return answer;
 }
@@ -49,7 +48,7 @@ EvictionAnswer Placing::search(std::uint32_t robot, std::uint32_t horizon, bool 
 bool Placing::place(std::uint32_t robot, std::uint64_t demotions, std::uint32_t horizon) {
   Path path = search(robot, horizon, demotions > 0).path;
   if (path.empty()) return false;
-  const std::vector<std::uint32_t> blockers = robotsInTheWay(table_, path);
+  const std::vector<std::uint32_t> blockers = robotsInTheWay(table_.paths(), path);
   for (const std::uint32_t blocker : blockers) {
     if (demoted_[blocker] >= demotions) return false;
   }

@@ -6,7 +6,6 @@
 
 #include "solver/prioritized/effort.h"
 #include "solver/search/eviction_search.h"
-#include "solver/search/path_table.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"
 
@@ -21,7 +20,7 @@ namespace split_mapf {
 /// second one where the first found nothing (7 million).
 class Placing {
  public:
-  Placing(const Instance& instance, Effort& effort, PathTable& table, std::vector<Path>& paths);
+  Placing(const Instance& instance, Effort& effort, std::vector<Path>& paths);
 
   /// @param demotions  how often a robot may be demoted.  @param horizon  nobody arrives later.
   /// @return who is left over, without a path, in order; incomplete when the effort stopped.
@@ -30,12 +29,12 @@ class Placing {
 
  private:
   bool place(std::uint32_t robot, std::uint64_t demotions, std::uint32_t horizon);
-  EvictionAnswer search(std::uint32_t robot, std::uint32_t horizon, bool demote);
+  GapAnswer search(std::uint32_t robot, std::uint32_t horizon, bool demote);
   void demote(std::uint32_t robot);
 
   const Instance& instance_;
   Effort& effort_;
-  PathTable& table_;
+  ReservationTable table_;
   std::vector<Path>& paths_;
   EvictionSearch search_;
   std::deque<std::uint32_t> queue_;

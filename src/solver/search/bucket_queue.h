@@ -9,6 +9,23 @@
 
 namespace split_mapf {
 
+/// The path that ends with a state, by the parents of states in an array; where no state stands for
+/// a step the robot waits. A state has members `vertex`, `time` and `parent`.
+template <typename State>
+Path pathOf(const std::vector<State>& states, std::uint32_t index) {
+  constexpr std::uint32_t kNoState = 0xffffffffU;
+  Path path(states[index].time + std::size_t{1});
+  auto end = path.end();
+  for (;; index = states[index].parent) {
+    const State& state = states[index];
+    const auto begin =
+        state.parent == kNoState ? path.begin() : path.begin() + std::ptrdiff_t{state.time};
+    std::fill(begin, end, state.vertex);
+    if (state.parent == kNoState) return path;
+    end = begin;
+  }
+}
+
 /// The states of a search in an array, and those that are open in buckets of small keys, last in
 /// first out. A state has members `vertex`, `time`, `parent` (index of a state, kNoState for the
 /// first) and `next`, which belongs to the queue. Keeps its memory between searches.
@@ -31,15 +48,17 @@ class BucketQueue {
   }
   bool empty() const { return open_ == 0; }
   const State& operator[](std::uint32_t index) const { return states_[index]; }
+  const std::vector<State>& states() const { return states_; }
 
   /// Keeps a state that is not open; returns its index.
   std::uint32_t add(const State& state) {
     states_.push_back(state);
     return static_cast<std::uint32_t>(states_.size() - 1);
   }
-  void push(const State& state, std::size_t key) {
+  void push(const State& state, std::size_t key) { open(add(state), key); }
+  /// Opens a state that was added.
+  void open(std::uint32_t index, std::size_t key) {
     if (key >= buckets_.size()) buckets_.resize(2 * key + 1, kNoState);
-    const std::uint32_t index = add(state);
     states_[index].next = buckets_[key];
     buckets_[key] = index;
     current_ = std::min(current_, key);
@@ -54,20 +73,8 @@ class BucketQueue {
     --open_;
     return index;
   }
-  /// The path that ends with a state; where no state stands for a step the robot waits.
-  Path pathTo(std::uint32_t index) const {
-    Path path(states_[index].time + std::size_t{1});
-    auto end = path.end();
-    for (;; index = states_[index].parent) {
-      const State& state = states_[index];
-      const auto begin =
-          state.parent == kNoState ? path.begin() : path.begin() + std::ptrdiff_t{state.time};
-      std::fill(begin, end, state.vertex);
-      if (state.parent == kNoState) break;
-      end = begin;
-    }
-    return path;
-  }
+  /// The path that ends with a state, see pathOf().
+  Path pathTo(std::uint32_t index) const { return pathOf(states_, index); }
 
  private:
   std::vector<State> states_;

@@ -28,13 +28,13 @@ bool NeighbourhoodSearch::replan(std::uint64_t budget, const Deadline& deadline)
   for (const std::uint32_t robot : robots_) still_needed += instance_.shortestLength(robot);
   for (const std::uint32_t robot : robots_) {
     still_needed -= instance_.shortestLength(robot);
-    EvictionQuery query;
+    GapQuery query;
     query.start = instance_.start(robot);
     query.distances = &instance_.distances(robot);
     query.placed = &table_;
     query.latest_arrival =
         static_cast<std::uint32_t>(std::min<std::uint64_t>(latest_arrival_, budget - still_needed));
-    EvictionAnswer answer = search_.search(query, deadline);
+    GapAnswer answer = search_.search(query, deadline);
     expansions_ += answer.expansions;
     if (answer.path.empty()) return false;
     budget -= answer.path.size() - 1;
@@ -45,7 +45,7 @@ bool NeighbourhoodSearch::replan(std::uint64_t budget, const Deadline& deadline)
 }
 
 std::uint64_t NeighbourhoodSearch::tryOne(const Deadline& deadline, const Accept& accept) {
-  picker_.pick(plan_, table_, robots_);
+  picker_.pick(plan_, table_.paths(), robots_);
   std::uint64_t before = 0;
   std::uint64_t least = 0;
   for (const std::uint32_t robot : robots_) {

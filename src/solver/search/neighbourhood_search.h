@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "solver/search/eviction_search.h"
+#include "solver/search/gap_search.h"
 #include "solver/search/neighbourhood.h"
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
@@ -47,9 +47,9 @@ class NeighbourhoodSearch {
   const Instance& instance_;
   std::uint32_t latest_arrival_;
   NeighbourhoodPicker picker_;
-  EvictionSearch search_;
+  GapSearch search_;
   Plan plan_;
-  PathTable table_;
+  ReservationTable table_;
   std::uint64_t expansions_ = 0;
   std::vector<std::uint32_t> robots_;  // of the current neighbourhood, as are
   std::vector<PathChange> changes_;    // these

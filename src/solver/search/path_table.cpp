@@ -53,4 +53,21 @@ std::uint32_t PathTable::countSwaps(std::uint32_t robot, Vertex from, Vertex to,
   return swaps;
 }
 
+std::vector<std::uint32_t> robotsInTheWay(const PathTable& placed, const Path& path) {
+  std::vector<std::uint32_t> robots;
+  Vertex before = kNoVertex;
+  forEachStay(path, [&](Vertex v, std::uint32_t begin, std::uint32_t end, Vertex) {
+    for (const Stay& stay : placed.at(v)) {
+      if (stay.begin >= end) break;
+      const bool meets = stay.end > begin;
+      const bool swaps = stay.end == begin && before != kNoVertex && stay.next == before;
+      if (meets || swaps) robots.push_back(stay.robot);
+    }
+    before = v;
+  });
+  std::sort(robots.begin(), robots.end());
+  robots.erase(std::unique(robots.begin(), robots.end()), robots.end());
+  return robots;
+}
+
 }  // namespace split_mapf

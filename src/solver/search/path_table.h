@@ -36,4 +36,8 @@ class PathTable {
   mutable TimelineBuilder builder_;
 };
 
+/// The placed robots that a path conflicts with: at a vertex, by a swap, or because one holds its
+/// goal for good. Each once, in ascending order. Cost: O(visits to the path's vertices).
+std::vector<std::uint32_t> robotsInTheWay(const PathTable& placed, const Path& path);
+
 }  // namespace split_mapf

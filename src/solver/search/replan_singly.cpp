@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "solver/search/eviction_search.h"
+#include "solver/search/gap_search.h"
 
 namespace split_mapf {
 namespace {
@@ -23,9 +23,9 @@ std::vector<std::uint32_t> mostDelayedFirst(const Instance& instance,
 
 }  // namespace
 
+template <typename Table>
 void replanSingly(const Instance& instance, std::uint64_t passes, const FindPath& find,
-                  const std::function<bool()>& stopped, std::vector<Path>& paths,
-                  PathTable& table) {
+                  const std::function<bool()>& stopped, std::vector<Path>& paths, Table& table) {
   bool gained = true;
   for (std::uint64_t pass = 0; pass < passes && gained; ++pass) {
     gained = false;
@@ -42,22 +42,26 @@ void replanSingly(const Instance& instance, std::uint64_t passes, const FindPath
   }
 }
 
+template void replanSingly<PathTable>(const Instance& instance, std::uint64_t passes,
+                                      const FindPath& find, const std::function<bool()>& stopped,
+                                      std::vector<Path>& paths, PathTable& table);
+
 Plan replanSingly(const Instance& instance, Plan plan, std::uint64_t passes,
                   const Deadline& deadline,
                   const std::function<bool(std::uint64_t expansions)>& go_on) {
   trimToArrival(plan);
   if (passes == 0) return plan;
-  PathTable table(instance.graph().size());
+  ReservationTable table(instance.graph().size());
   for (std::uint32_t i = 0; i < instance.robots(); ++i) table.insert(i, plan.paths[i]);
-  EvictionSearch search(instance.graph());
+  GapSearch search(instance.graph());
   bool spent = false;
   const FindPath find = [&](std::uint32_t robot, std::uint32_t latest_arrival) {
-    EvictionQuery query;
+    GapQuery query;
     query.start = instance.start(robot);
     query.distances = &instance.distances(robot);
     query.placed = &table;
     query.latest_arrival = latest_arrival;
-    EvictionAnswer answer = search.search(query, deadline);
+    GapAnswer answer = search.search(query, deadline);
     spent = go_on && !go_on(answer.expansions);
     return std::move(answer.path);
   };

@@ -22,8 +22,10 @@ using FindPath = std::function<Path(std::uint32_t robot, std::uint32_t latest_ar
 /// valid after every single step; `stopped` merely ends it early.
 /// @pre paths end at their arrivals, and `table` holds them, but for the robot that `find` is asked
 /// for, which is taken out meanwhile.
+/// Table: PathTable or ReservationTable.
+template <typename Table>
 void replanSingly(const Instance& instance, std::uint64_t passes, const FindPath& find,
-                  const std::function<bool()>& stopped, std::vector<Path>& paths, PathTable& table);
+                  const std::function<bool()>& stopped, std::vector<Path>& paths, Table& table);
 /// The same with the earliest arrivals that the others leave open, until the deadline, or until
 /// `go_on`, asked after every search with the states that it expanded, says no (null: it is not).
 Plan replanSingly(const Instance& instance, Plan plan, std::uint64_t passes,

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/search/bucket_queue.h"
+#include "solver/search/reservation_table.h"
+#include "split_mapf/core/deadline.h"
+#include "split_mapf/core/distance_table.h"
+#include "split_mapf/core/graph.h"
+#include "split_mapf/core/plan.h"
+
+namespace split_mapf {
+
+/// One robot's question among robots that have paths without conflicts.
+struct GapQuery {
+  Vertex start = kNoVertex;
+  const DistanceTable* distances = nullptr;     ///< to the goal
+  const ReservationTable* placed = nullptr;     ///< @pre without the robot that asks
+  std::uint32_t departure = 0;                  ///< stays at its start until this step
+  std::uint32_t latest_arrival = kForever - 1;  ///< longest path allowed [steps]
+};
+
+/// The answer; `path` is empty when there is none (or when the deadline came: `interrupted`).
+struct GapAnswer {
+  Path path;
+  bool interrupted = false;
+  std::uint64_t expansions = 0;
+};
+
+/// Finds the path among placed robots that arrives first, holding the goal for good.
+/// Safe intervals as in SafeIntervalSearch, but as the placed robots have no conflicts, the gaps
+/// between the visits to a vertex are all there is: a state is a vertex and a step, and stands for
+/// the rest of the gap around it. What was reached is one bit a vertex and step, so that 64 steps
+/// of a neighbour are looked at in one go: free, and not reached yet.
+/// Keeps its memory between calls; not thread-safe. Memory: one bit for each step of the vertices
+/// that the search meets.
+class GapSearch {
+ public:
+  static constexpr std::uint32_t kNoState = 0xffffffffU;
+
+  struct State {
+    Vertex vertex;
+    std::uint32_t time;      // of the first step there
+    std::uint32_t leave_by;  // the next robot comes at this step; kForever: none, or too late
+    std::uint32_t parent;
+    std::uint32_t next = kNoState;  // in its bucket
+  };
+
+  explicit GapSearch(const Graph& graph);
+  GapAnswer search(const GapQuery& query, const Deadline& deadline);
+
+  /// What the last search came upon, in no order.
+  const std::vector<State>& states() const { return queue_.states(); }
+  /// Whether the last search found a way to be at `v` at step `t`: all such ways by which one could
+  /// still arrive in time, once there was no path.
+  bool reached(Vertex v, std::uint32_t t) const {
+    if (met_[v].search != search_number_) return false;
+    return (reached_[met_[v].row + t / 64] >> (t % 64) & 1U) != 0;
+  }
+  /// Whether the state's gap was reached earlier, too.
+  bool isOutdated(const State& state) const {
+    return state.time > 0 && reached(state.vertex, state.time - 1);
+  }
+
+ private:
+  struct Met {
+    std::uint32_t search = 0;  // number of the search that met the vertex last
+    std::uint32_t row = 0;     // where its steps begin in reached_
+  };
+
+  void reset();
+  bool pushStart();
+  std::uint64_t* rowOf(Vertex v);
+  void meet(Met& met);
+  std::uint32_t reachGap(Vertex v, std::uint32_t from, std::uint32_t to);
+  void expand(std::uint32_t index);
+  void move(const State& state, std::uint32_t index, Vertex to);
+  bool swaps(const State& state, Vertex to, std::uint32_t t) const;
+  void push(std::uint32_t parent, Vertex v, std::uint32_t time, std::uint32_t distance);
+  std::uint32_t distanceOf(Vertex v) const {
+    return narrow_ != nullptr ? narrow_[v] : (*query_->distances)(v);
+  }
+
+  const Graph& graph_;
+  const GapQuery* query_ = nullptr;
+  const std::uint16_t* narrow_ = nullptr;  // the distances, where they have this form
+  std::uint32_t latest_arrival_ = 0;
+  std::uint32_t earliest_hold_ = 0;  // from this step on the goal can be held for good
+  std::uint32_t first_estimate_ = 0;
+  std::uint32_t estimate_ = 0;        // of the state that is expanded
+  std::uint32_t arrived_ = kNoState;  // a state that holds the goal as soon as any can
+  std::uint32_t words_ = 0;           // of a row
+  std::vector<Met> met_;
+  std::vector<std::uint64_t> reached_;
+  std::uint32_t search_number_ = 0;
+  BucketQueue<State> queue_;  // over arrival
+};
+
+}  // namespace split_mapf

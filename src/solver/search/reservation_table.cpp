@@ -1,0 +1,49 @@
+#include "solver/search/reservation_table.h"
+
+#include <algorithm>
+
+namespace split_mapf {
+
+ReservationTable::ReservationTable(std::uint32_t vertices) : paths_(vertices), bits_(vertices, 0) {}
+
+void ReservationTable::insert(std::uint32_t robot, const Path& path) {
+  coverSteps(path.size());
+  paths_.insert(robot, path);
+  flip(path);
+}
+
+void ReservationTable::remove(std::uint32_t robot, const Path& path) {
+  paths_.remove(robot, path);
+  flip(path);
+}
+
+/// A robot alone where it is: its bits are all unset or all set.
+void ReservationTable::flip(const Path& path) {
+  const auto size = static_cast<std::uint32_t>(path.size());
+  for (std::uint32_t t = 0; t < size; ++t) {
+    bits_[std::size_t{path[t]} * words_ + t / 64] ^= std::uint64_t{1} << (t % 64);
+  }
+  // At its goal for good.
+  std::uint64_t* const row = bits_.data() + std::size_t{path.back()} * words_;
+  if (size % 64 != 0) row[size / 64] ^= ~std::uint64_t{0} << (size % 64);
+  for (std::uint32_t word = (size + 63) / 64; word < words_; ++word) row[word] = ~row[word];
+}
+
+void ReservationTable::coverSteps(std::size_t steps) {
+  if (steps <= std::size_t{64} * words_) return;
+  const auto needed = static_cast<std::uint32_t>((steps + 63) / 64);
+  const std::uint32_t words = std::max(needed, words_ + words_ / 4 + 1);
+  const std::size_t vertices = bits_.size() / words_;
+  std::vector<std::uint64_t> bits(vertices * words);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const auto row = bits_.begin() + static_cast<std::ptrdiff_t>(v * words_);
+    const auto end =
+        std::copy(row, row + words_, bits.begin() + static_cast<std::ptrdiff_t>(v * words));
+    std::fill(end, bits.begin() + static_cast<std::ptrdiff_t>((v + 1) * words),
+              everAfter(row[words_ - 1]));
+  }
+  bits_ = std::move(bits);
+  words_ = words;
+}
+
+}  // namespace split_mapf

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/search/path_table.h"
+#include "split_mapf/core/plan.h"
+
+namespace split_mapf {
+
+/// The paths of robots that do not conflict: the visits of each vertex, and one bit for each vertex
+/// and step that says whether somebody is there. A search asks for 64 steps at a time.
+/// Memory: the path table, and vertices x greatest arrival / 8 bytes. Not thread-safe; const
+/// members are.
+class ReservationTable {
+ public:
+  explicit ReservationTable(std::uint32_t vertices);
+
+  /// @pre the robot has no path in the table, and no other is where this one is; the path ends at
+  /// its arrival.
+  void insert(std::uint32_t robot, const Path& path);
+  /// @pre `path` is what was inserted for the robot.
+  void remove(std::uint32_t robot, const Path& path);
+
+  const PathTable& paths() const { return paths_; }
+  const std::vector<Stay>& at(Vertex v) const { return paths_.at(v); }
+  /// Bit i: somebody is at `v` at step 64 * word + i. Any word may be asked for.
+  std::uint64_t taken(Vertex v, std::uint32_t word) const {
+    const std::uint64_t* const row = bits_.data() + std::size_t{v} * words_;
+    return word < words_ ? row[word] : everAfter(row[words_ - 1]);
+  }
+
+  bool isTaken(Vertex v, std::uint32_t t) const { return (taken(v, t / 64) >> (t % 64) & 1U) != 0; }
+  /// A step after which nobody moves any more.
+  std::uint32_t lastChange() const { return 64 * words_ - 1; }
+
+ private:
+  // After the last step of the bits nothing changes any more.
+  static std::uint64_t everAfter(std::uint64_t last_word) { return 0 - (last_word >> 63U); }
+  void coverSteps(std::size_t steps);
+  void flip(const Path& path);
+
+  PathTable paths_;
+  std::uint32_t words_ = 1;  // of a vertex
+  std::vector<std::uint64_t> bits_;
+};
+
+}  // namespace split_mapf

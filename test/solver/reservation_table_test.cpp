@@ -1,0 +1,93 @@
+#include "solver/search/reservation_table.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "split_mapf/core/random.h"
+
+namespace split_mapf {
+namespace {
+
+constexpr std::uint32_t kVertices = 40;
+constexpr std::uint32_t kSteps = 400;  // checked, beyond the end of every path
+
+/// Robots one after another along a line of vertices, each parked where it arrives.
+std::vector<Path> convoy(RandomEngine& engine) {
+  std::vector<Path> paths;
+  for (std::uint32_t robot = 0; robot < 6; ++robot) {
+    const Vertex goal = kVertices - 1 - robot;
+    Path path(drawBelow(engine, 5) + std::size_t{20} * robot + 1, kVertices - 8 - 2 * robot);
+    while (path.back() != goal) path.push_back(path.back() + 1);
+    paths.push_back(std::move(path));
+  }
+  // The last starts before the others have gone by: keep those that are alone wherever they are.
+  std::vector<Path> alone;
+  for (const Path& path : paths) {
+    bool free = true;
+    for (const Path& other : alone) {
+      for (std::uint32_t t = 0; t < kSteps; ++t) {
+        free = free && positionAt(path, t) != positionAt(other, t);
+      }
+    }
+    if (free) alone.push_back(path);
+  }
+  return alone;
+}
+
+void expectBits(const ReservationTable& table, const std::vector<Path>& paths) {
+  for (Vertex v = 0; v < kVertices; ++v) {
+    for (std::uint32_t t = 0; t < kSteps; ++t) {
+      bool somebody = false;
+      for (const Path& path : paths) {
+        somebody = somebody || (!path.empty() && positionAt(path, t) == v);
+      }
+      ASSERT_EQ(table.isTaken(v, t), somebody) << "vertex " << v << " step " << t;
+    }
+  }
+}
+
+TEST(ReservationTable, BitsSayWhoIsWhereWhateverComesAndGoes) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    RandomEngine engine(seed);
+    ReservationTable table(kVertices);
+    std::vector<Path> paths = convoy(engine);
+    ASSERT_GT(paths.size(), 1U);
+    for (std::uint32_t i = 0; i < paths.size(); ++i) table.insert(i, paths[i]);
+    expectBits(table, paths);
+    const auto gone = static_cast<std::uint32_t>(drawBelow(engine, paths.size()));
+    table.remove(gone, paths[gone]);
+    paths[gone].clear();
+    expectBits(table, paths);
+  }
+}
+
+TEST(ReservationTable, ALongPathKeepsWhoIsParkedParked) {
+  ReservationTable table(kVertices);
+  const Path parked = {3, 2};
+  table.insert(0, parked);
+  EXPECT_TRUE(table.isTaken(2, 1000));
+  Path late(300, 7);
+  late.push_back(8);
+  table.insert(1, late);
+  expectBits(table, {parked, late});
+  EXPECT_TRUE(table.isTaken(2, 1000));
+  EXPECT_TRUE(table.isTaken(8, 1000));
+  EXPECT_FALSE(table.isTaken(7, 1000));
+}
+
+TEST(ReservationTable, EndsThatFillAWordExactly) {
+  for (const std::size_t steps : {63U, 64U, 65U, 127U, 128U, 129U}) {
+    ReservationTable table(kVertices);
+    Path path(steps - 1, 5);
+    path.push_back(6);
+    table.insert(0, path);
+    expectBits(table, {path});
+    table.remove(0, path);
+    expectBits(table, {});
+  }
+}
+
+}  // namespace
+}  // namespace split_mapf
