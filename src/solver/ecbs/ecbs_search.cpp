@@ -38,7 +38,6 @@ SolveResult EcbsSearch::run() {
   SolveResult result;
   result.lower_bound = first_bound_;
   bool done = false;
-  const bool ranks = settings_.cardinal && settings_.objective == Objective::kSumOfCosts;
   while (!done && !low_level_.stopped() && !tree_.empty()) {
     result.lower_bound = tree_.lowerBound();
     // Otherwise FOCAL can descend for ever below a bound that nobody raises.
@@ -46,8 +45,7 @@ SolveResult EcbsSearch::run() {
                        result.high_level_nodes % settings_.raise_every == settings_.raise_every - 1;
     const std::uint32_t node = raise ? tree_.lowest() : tree_.best();
     ++result.high_level_nodes;
-    // Elsewhere FOCAL wants fewer conflicts, not higher bounds, and gets them sooner unranked.
-    done = expand(node, ranks && (raise || settings_.suboptimality == 1));
+    done = expand(node);
   }
   if (done) {
     handOver();
@@ -111,10 +109,10 @@ void EcbsSearch::load(std::uint32_t node) {
   }
 }
 
-bool EcbsSearch::expand(std::uint32_t node, bool ranked) {
+bool EcbsSearch::expand(std::uint32_t node) {
   load(node);
   while (!tree_.node(node).conflicts.empty()) {
-    const std::optional<Conflict> conflict = choose(node, ranked);
+    const std::optional<Conflict> conflict = choose(node);
     if (!conflict || low_level_.stopped()) return false;
     const Branches branches = branchesOf(node, *conflict);
     std::optional<Child> first = makeChild(node, branches.first);
@@ -252,9 +250,9 @@ void EcbsSearch::completeChild(std::uint32_t parent, Child& child) {
   }
 }
 
-std::optional<Conflict> EcbsSearch::choose(std::uint32_t number, bool ranked) {
+std::optional<Conflict> EcbsSearch::choose(std::uint32_t number) {
   TreeNode& node = tree_.node(number);
-  if (!ranked) {
+  if (!settings_.cardinal || settings_.objective == Objective::kMakespan) {
     return *std::min_element(node.conflicts.begin(), node.conflicts.end(),
                              [](const Conflict& a, const Conflict& b) { return a.step < b.step; });
   }

@@ -43,7 +43,7 @@ class EcbsSearch {
   void load(std::uint32_t node);
   void usePath(std::uint32_t robot, std::uint32_t number);
   /// Whether the node's plan is free of conflicts.
-  bool expand(std::uint32_t node, bool ranked);
+  bool expand(std::uint32_t node);
   bool adoptInstead(std::uint32_t node, Child& child);
   std::optional<Child> makeChild(std::uint32_t parent, const Constraint& constraint);
   bool planChild(std::uint32_t parent, Child& child);
@@ -51,7 +51,7 @@ class EcbsSearch {
   bool planForSumOfCosts(const TreeNode& parent, Child& child);
   void completeChild(std::uint32_t parent, Child& child);
   /// Nothing when the node has turned out too expensive for now, and waits again.
-  std::optional<Conflict> choose(std::uint32_t node, bool ranked);
+  std::optional<Conflict> choose(std::uint32_t node);
   Branches branchesOf(std::uint32_t node, const Conflict& conflict);
   Path fewestCollisions(std::uint32_t robot, std::uint32_t bound, std::uint32_t own_bound);
   /// kForever when there is none.
