@@ -105,6 +105,28 @@ TEST_P(EcbsTechniques, KeepTheBound) {
   EXPECT_GT(solved, 100);
 }
 
+TEST(EcbsRanking, SavesNodesAboveW1Too) {
+  // No node is expanded to raise the bound here: ranking has to pay in those of FOCAL.
+  const auto nodes = [](const std::string& cardinal) {
+    SolverOptions options;
+    options.objective = Objective::kSumOfCosts;
+    options.suboptimality = 1.05;
+    options.expansion_limit = 20000;
+    options.values = {{"raise_every", "0"}, {"cardinal", cardinal}};
+    const auto solver = builtinSolvers().create("ecbs", options);
+    std::uint64_t sum = 0;
+    for (const OracleCase& c : oracleCases()) {
+      if (c.sum_of_costs && !c.isKnot()) {
+        sum += solver->solve(c.instance, Deadline(kPatienceSec)).high_level_nodes;
+      }
+    }
+    return sum;
+  };
+  const std::uint64_t ranked = nodes("true");
+  const std::uint64_t unranked = nodes("false");
+  EXPECT_LT(10 * ranked, 9 * unranked) << ranked << " against " << unranked;
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Options, EcbsTechniques,
     ::testing::Combine(::testing::Values(std::pair<std::string, std::string>("order",
