@@ -10,265 +10,239 @@ constexpr std::uint64_t kPollEvery = 1024;
 }  // namespace
 
 EvictionSearch::EvictionSearch(const Graph& graph)
-    : graph_(graph),
-      gaps_(graph),
-      met_(graph.size(), 0),
-      first_span_(graph.size(), 0),
-      waiting_(kLists) {}
+    : graph_(graph), gaps_(graph), offered_(graph.size()), waiting_(kLists) {}
 
 GapAnswer EvictionSearch::search(const EvictionQuery& query, const Deadline& deadline) {
   GapAnswer answer = gaps_.search(query, deadline);
   if (!answer.path.empty() || answer.interrupted || query.weights == nullptr) return answer;
   query_ = &query;
   reset();
-  prepareGoal();
   if (!pushStart()) return answer;
   for (std::uint32_t index = pop(); index != kNone; index = pop()) {
-    const State state = queue_[index];
-    if (state.span == kNone) {
+    const State& state = queue_[index];
+    if (state.robot == kArrived) {
       answer.path = queue_.pathTo(index);
       return answer;
     }
-    Seen& span = seen(state.vertex, state.span);
-    if (state.time >= span.closed_time) continue;
-    span.closed_time = state.time;
     if (++answer.expansions % kPollEvery == 0 && deadline.expired()) {
       answer.interrupted = true;
       return answer;
     }
-    expand(index, false);
+    expand(index);
   }
   return answer;
 }
 
 void EvictionSearch::reset() {
-  seen_.clear();
+  latest_arrival_ = gaps_.latestArrival();
+  offered_.reset(latest_arrival_ + 1);
   queue_.clear();
   heap_.clear();
   for (auto& waiting : waiting_) waiting.clear();
-  open_weight_ = 0;
-  if (++search_number_ == 0) {
-    std::fill(met_.begin(), met_.end(), 0);
-    search_number_ = 1;
-  }
+  weight_ = 0;
 }
 
-std::uint32_t EvictionSearch::endOf(Vertex v, std::uint32_t span) const {
+bool EvictionSearch::inTime(Vertex v, std::uint32_t t) const {
+  const std::uint32_t distance = (*query_->distances)(v);
+  return distance <= latest_arrival_ && t <= latest_arrival_ - distance;
+}
+
+/// The first visit that ends after step `t`; null when there is none.
+const Stay* EvictionSearch::nextVisit(Vertex v, std::uint32_t t) const {
   const std::vector<Stay>& stays = query_->placed->at(v);
-  if (isVisit(span)) return stays[span / 2].end;
-  return span / 2 == stays.size() ? kForever : stays[span / 2].begin;
-}
-
-bool EvictionSearch::comesLater(const Waiting& a, const Waiting& b) {
-  if (a.weight != b.weight) return a.weight > b.weight;
-  if (a.estimate != b.estimate) return a.estimate > b.estimate;
-  return a.index < b.index;
-}
-
-EvictionSearch::Seen& EvictionSearch::seen(Vertex v, std::uint32_t span) {
-  if (met_[v] != search_number_) {
-    met_[v] = search_number_;
-    first_span_[v] = static_cast<std::uint32_t>(seen_.size());
-    seen_.resize(seen_.size() + 2 * query_->placed->at(v).size() + 1);
-  }
-  return seen_[first_span_[v] + span];
-}
-
-void EvictionSearch::prepareGoal() {
-  const std::vector<Stay>& stays = query_->placed->at(query_->distances->goal());
-  weight_from_visit_.assign(stays.size() + 1, 0);
-  for (std::size_t k = stays.size(); k-- > 0;) {
-    weight_from_visit_[k] = weight_from_visit_[k + 1] + weightOf(stays[k]);
-  }
+  const auto next = std::partition_point(stays.begin(), stays.end(),
+                                         [t](const Stay& stay) { return stay.end <= t; });
+  return next != stays.end() ? &*next : nullptr;
 }
 
 bool EvictionSearch::pushStart() {
-  const std::uint32_t distance = (*query_->distances)(query_->start);
-  if (distance == DistanceTable::kUnreachable) return false;
+  if ((*query_->distances)(query_->start) == DistanceTable::kUnreachable) return false;
   if (!gaps_.states().empty()) {
     leaveGaps();
     return true;
   }
   std::uint32_t weight = 0;
-  std::uint32_t span = 0;
   for (const Stay& stay : query_->placed->at(query_->start)) {
-    if (stay.begin > query_->departure) break;
-    weight += weightOf(stay);
-    span += stay.end > query_->departure ? 1 : 2;
+    if (stay.begin <= query_->departure) weight += weightOf(stay);
   }
-  reach(kNone, query_->start, span, query_->departure, weight);
+  State start{query_->start, query_->departure, kForever, kNone, kNone};
+  if (!inTime(start.vertex, start.time)) return false;
+  if (const Stay* const next = nextVisit(start.vertex, start.time)) {
+    const bool inside = next->begin <= start.time;
+    start.end = inside ? next->end : next->begin;
+    if (inside) start.robot = next->robot;
+  }
+  weight_ = kNone;  // nothing is open yet
+  push(start, weight);
+  weight_ = 0;
   return true;
 }
 
 void EvictionSearch::leaveGaps() {
   const std::vector<GapSearch::State>& reached = gaps_.states();
-  const auto span_of = [this](const GapSearch::State& state) {
-    const std::vector<Stay>& stays = query_->placed->at(state.vertex);
-    const auto next = std::partition_point(stays.begin(), stays.end(), [&state](const Stay& stay) {
-      return stay.begin <= state.time;
-    });
-    return 2 * static_cast<std::uint32_t>(next - stays.begin());
-  };
   for (const GapSearch::State& state : reached) {
-    queue_.add({state.vertex, span_of(state), state.time, 0, state.parent});
+    queue_.add({state.vertex, state.time, state.leave_by, kNone, state.parent});
   }
   for (std::uint32_t index = 0; index < reached.size(); ++index) {
-    if (!gaps_.isOutdated(reached[index])) expand(index, true);
+    if (!gaps_.isOutdated(reached[index])) evictFrom(State(queue_[index]), index);
   }
 }
 
-void EvictionSearch::push(const State& state, std::uint32_t estimate) {
+void EvictionSearch::push(const State& state, std::uint32_t weight) {
   const std::uint32_t index = queue_.add(state);
-  if (state.weight == open_weight_) return queue_.open(index, estimate);
-  const Waiting waiting{state.weight, estimate, index};
-  if (state.weight < kLists) {
-    waiting_[state.weight].push_back(waiting);
-  } else {
-    heap_.push_back(waiting);
-    std::push_heap(heap_.begin(), heap_.end(), comesLater);
-  }
+  if (weight == weight_) return open(index);
+  if (weight < kLists) return waiting_[weight].push_back(index);
+  heap_.push_back({weight, index});
+  std::push_heap(heap_.begin(), heap_.end(),
+                 [](const Waiting& a, const Waiting& b) { return a.weight > b.weight; });
 }
 
-/// The state of the least weight and, among these, the least estimate; kNone when none is left.
+/// Opens a state whose weight has its turn, unless what is open reached it already.
+void EvictionSearch::open(std::uint32_t index) {
+  const State& state = queue_[index];
+  if (state.robot != kArrived) {
+    if (gaps_.reached()(state.vertex, state.time)) return;
+    gaps_.reached().mark(state.vertex, state.time, state.end);
+  }
+  queue_.open(index, state.time + (*query_->distances)(state.vertex));
+}
+
 std::uint32_t EvictionSearch::pop() {
-  if (!queue_.empty() || openNextWeight()) return queue_.pop();
-  if (heap_.empty()) return kNone;
-  std::pop_heap(heap_.begin(), heap_.end(), comesLater);
-  const std::uint32_t index = heap_.back().index;
-  heap_.pop_back();
-  return index;
+  return !queue_.empty() || openNextWeight() ? queue_.pop() : kNone;
 }
 
 bool EvictionSearch::openNextWeight() {
-  for (; open_weight_ < kLists; ++open_weight_) {
-    std::vector<Waiting>& waiting = waiting_[open_weight_];
-    if (waiting.empty()) continue;
-    for (const Waiting& state : waiting) queue_.open(state.index, state.estimate);
-    waiting.clear();
-    return true;
+  for (; weight_ < kLists; ++weight_) {
+    std::vector<std::uint32_t> turn;
+    turn.swap(waiting_[weight_]);
+    for (const std::uint32_t index : turn) open(index);
+    turn.clear();
+    turn.swap(waiting_[weight_]);  // its memory is kept
+    if (!queue_.empty()) return true;
   }
-  return false;
-}
-
-void EvictionSearch::expand(std::uint32_t index, bool only_evicting) {
-  const State state = queue_[index];
-  if (only_evicting && state.vertex == query_->distances->goal()) arrive(state, index);
-  wait(state, index);
-  const std::uint32_t leave_by = endOf(state.vertex, state.span);
-  for (const Vertex to : graph_.neighbours(state.vertex)) {
-    if (only_evicting) {
-      moveEvicting(state, index, to, leave_by);
-    } else {
-      move(state, index, to, leave_by);
+  while (queue_.empty() && !heap_.empty()) {
+    weight_ = heap_.front().weight;
+    while (!heap_.empty() && heap_.front().weight == weight_) {
+      const std::uint32_t index = heap_.front().index;
+      std::pop_heap(heap_.begin(), heap_.end(),
+                    [](const Waiting& a, const Waiting& b) { return a.weight > b.weight; });
+      heap_.pop_back();
+      open(index);
     }
   }
+  return !queue_.empty();
+}
+
+void EvictionSearch::expand(std::uint32_t index) {
+  const State state = queue_[index];
+  for (const Vertex to : graph_.neighbours(state.vertex)) moveIntoGaps(state, index, to);
+  evictFrom(state, index);
+}
+
+/// All that a GapSearch leaves out.
+void EvictionSearch::evictFrom(const State& state, std::uint32_t index) {
+  arrive(state, index);
+  wait(state, index);
+  for (const Vertex to : graph_.neighbours(state.vertex)) moveIntoVisits(state, index, to);
+}
+
+/// At the goal for good: all who come later are evicted.
+void EvictionSearch::arrive(const State& state, std::uint32_t index) {
+  if (state.vertex != query_->distances->goal()) return;
+  std::uint32_t weight = weight_;
+  for (const Stay& stay : query_->placed->at(state.vertex)) {
+    if (stay.begin > state.time) weight += weightOf(stay);
+  }
+  push({state.vertex, state.time, kForever, kArrived, queue_[index].parent}, weight);
 }
 
 void EvictionSearch::wait(const State& state, std::uint32_t index) {
-  const std::uint32_t end = endOf(state.vertex, state.span);
-  if (end == kForever) return;
-  std::uint32_t next = state.span + 1;
-  if (!isVisit(next) && endOf(state.vertex, next) == end) ++next;  // an empty gap
-  reach(index, state.vertex, next, end, state.weight + weightToEnter(state, state.vertex, next));
-}
-
-void EvictionSearch::move(const State& state, std::uint32_t index, Vertex to,
-                          std::uint32_t leave_by) {
-  const std::vector<Stay>& stays = query_->placed->at(to);
-  const auto visits = static_cast<std::uint32_t>(stays.size());
-  const std::uint32_t soonest = state.time + 1;
-  const auto ahead = std::partition_point(
-      stays.begin(), stays.end(), [soonest](const Stay& stay) { return stay.end <= soonest; });
-  auto visit = static_cast<std::uint32_t>(ahead - stays.begin());
-  for (;; ++visit) {
-    const std::uint32_t gap_begin = visit == 0 ? 0 : stays[visit - 1].end;
-    if (gap_begin > leave_by) return;
-    const std::uint32_t gap_end = visit == visits ? kForever : stays[visit].begin;
-    const std::uint32_t first = std::max(soonest, gap_begin);
-    if (first < gap_end) enter(state, index, to, 2 * visit, first, std::min(leave_by, gap_end - 1));
-    if (visit == visits || gap_end > leave_by) return;
-    enter(state, index, to, 2 * visit + 1, std::max(soonest, gap_end),
-          std::min(leave_by, stays[visit].end - 1));
+  if (state.end == kForever || !inTime(state.vertex, state.end)) return;
+  if (gaps_.reached()(state.vertex, state.end)) return;
+  const Stay* const next = nextVisit(state.vertex, state.end);
+  if (next == nullptr || next->begin > state.end) {
+    const std::uint32_t end = next == nullptr ? kForever : next->begin;
+    push({state.vertex, state.end, end, kNone, index}, weight_);
+  } else if (!offered_(state.vertex, state.end)) {
+    offered_.mark(state.vertex, state.end, next->end);
+    push({state.vertex, state.end, next->end, next->robot, index}, weight_ + weightOf(*next));
   }
 }
 
-/// The moves that a GapSearch leaves out: into visits, and into gaps by a swap.
-void EvictionSearch::moveEvicting(const State& state, std::uint32_t index, Vertex to,
-                                  std::uint32_t leave_by) {
+void EvictionSearch::moveIntoGaps(const State& state, std::uint32_t index, Vertex to) {
+  if (!inTime(to, state.time + 1)) return;
   const std::uint32_t distance = (*query_->distances)(to);
-  if (distance > query_->latest_arrival) return;
-  const std::uint32_t last = std::min(leave_by, query_->latest_arrival - distance);
-  const std::uint32_t soonest = state.time + 1;
-  const std::vector<Stay>& stays = query_->placed->at(to);
-  const auto ahead = std::partition_point(
-      stays.begin(), stays.end(), [soonest](const Stay& stay) { return stay.end < soonest; });
-  for (auto stay = ahead; stay != stays.end() && stay->begin <= last; ++stay) {
-    const auto visit = static_cast<std::uint32_t>(stay - stays.begin());
-    const std::uint32_t first = std::max(soonest, stay->begin);
-    if (first < stay->end) {
-      enter(state, index, to, 2 * visit + 1, first, std::min(last, stay->end - 1));
-    }
-    const bool swaps = stay->end <= last && stay->next == state.vertex;
-    if (swaps && stay->end < endOf(to, 2 * visit + 2)) {
-      reach(index, to, 2 * visit + 2, stay->end, state.weight + weightOf(*stay));
-    }
-  }
+  const std::uint32_t last = std::min(state.end, latest_arrival_ - distance);
+  const ReservationTable& placed = *query_->placed;
+  ReachedSteps& reached = gaps_.reached();
+  const std::uint64_t* const words = reached.row(to);
+  forEachStep(
+      state.time + 1, last,
+      [&](std::uint32_t word) { return ~placed.taken(to, word) & ~words[word]; },
+      [&](std::uint32_t first) {
+        if (first == state.end && oncoming(placed, state.vertex, to, first) != nullptr) {
+          return false;
+        }
+        const std::uint32_t end =
+            reached.markGap(placed, to, first, latest_arrival_ - distance + 1);
+        queue_.push({to, first, end, kNone, index}, first + distance);
+        return true;
+      });
 }
 
-std::uint32_t EvictionSearch::swapWeight(Vertex from, Vertex to, std::uint32_t span,
-                                         std::uint32_t time) const {
-  if (span < 2) return 0;
-  const Stay& before = query_->placed->at(to)[(span - 2) / 2];
-  return before.end == time && before.next == from ? weightOf(before) : 0;
-}
-
-std::uint32_t EvictionSearch::weightToEnter(const State& state, Vertex to,
-                                            std::uint32_t span) const {
-  if (!isVisit(span)) return 0;
-  const Stay& met = query_->placed->at(to)[span / 2];
-  if (isVisit(state.span) && query_->placed->at(state.vertex)[state.span / 2].robot == met.robot) {
-    return 0;  // evicted already
-  }
-  return weightOf(met);
-}
-
-void EvictionSearch::enter(const State& state, std::uint32_t index, Vertex to, std::uint32_t span,
-                           std::uint32_t first, std::uint32_t last) {
-  if (first > last || first > query_->latest_arrival) return;
-  const std::uint32_t weight = state.weight + weightToEnter(state, to, span);
-  const std::uint32_t extra = swapWeight(state.vertex, to, span, first);
-  reach(index, to, span, first, weight + extra);
-  // A step later there is no swap any more.
-  if (extra > 0 && first < last) reach(index, to, span, first + 1, weight);
-}
-
-void EvictionSearch::reach(std::uint32_t parent, Vertex to, std::uint32_t span, std::uint32_t time,
-                           std::uint32_t weight) {
+void EvictionSearch::moveIntoVisits(const State& state, std::uint32_t index, Vertex to) {
+  if (!inTime(to, state.time + 1)) return;
   const std::uint32_t distance = (*query_->distances)(to);
-  const std::uint32_t estimate = time + distance;
-  if (estimate > query_->latest_arrival) return;
-  const State reached{to, span, time, weight, parent};
-  if (distance == 0) {
-    arrive(reached, parent);
-    // Once the goal can be held for good at no price there is nothing to go on for.
-    if (span == 2 * query_->placed->at(to).size()) return;
-  }
-  // What the gaps alone reached comes at no weight.
-  if (!isVisit(span) && gaps_.reached(to, time)) return;
-  Seen& there = seen(to, span);
-  if (time >= there.closed_time) return;
-  if (time >= there.pushed_time && weight >= there.pushed_weight) return;
-  if (there.pushed_weight >= weight) {
-    there.pushed_time = time;
-    there.pushed_weight = weight;
-  }
-  push(reached, estimate);
+  const std::uint32_t last = std::min(state.end, latest_arrival_ - distance);
+  const ReservationTable& placed = *query_->placed;
+  if (last == state.end) moveAtLast(state, index, to);
+  const std::uint64_t* const reached = gaps_.reached().row(to);
+  const std::uint64_t* const offered = offered_.row(to);
+  std::uint32_t from = state.time + 1;  // of what is left; each visit counts once
+  const auto left_of = [&from](std::uint32_t word) {
+    if (64 * word + 63 < from) return std::uint64_t{0};
+    return 64 * word >= from ? ReachedSteps::kAllSteps : ReachedSteps::kAllSteps << (from % 64);
+  };
+  forEachStep(
+      from, last,
+      [&](std::uint32_t word) {
+        return placed.taken(to, word) & ~reached[word] & ~offered[word] & left_of(word);
+      },
+      [&](std::uint32_t t) {
+        const Stay& visit = *nextVisit(to, t);
+        enterVisit(state, visit, {to, t, visit.end, visit.robot, index});
+        from = visit.end;
+        return from <= last;
+      });
 }
 
-/// At the goal, for good.
-void EvictionSearch::arrive(const State& state, std::uint32_t parent) {
-  const std::uint32_t weight = state.weight + weight_from_visit_[(state.span + 1) / 2];
-  push({state.vertex, kNone, state.time, weight, parent}, state.time);
+/// The last step at which a robot can leave is the only one at which somebody may come towards it,
+/// and the only one at which whom it has evicted may go the same way: that is free of charge.
+void EvictionSearch::moveAtLast(const State& state, std::uint32_t index, Vertex to) {
+  const std::uint32_t t = state.end;
+  if (gaps_.reached()(to, t)) return;
+  const Stay* const next = nextVisit(to, t);
+  if (next != nullptr && next->begin <= t) {
+    if (next->robot == state.robot) push({to, t, next->end, next->robot, index}, weight_);
+    return;
+  }
+  const Stay* const met = oncoming(*query_->placed, state.vertex, to, t);
+  if (met == nullptr) return;
+  const std::uint32_t end = next == nullptr ? kForever : next->begin;
+  push({to, t, end, kNone, index}, weight_ + weightOf(*met));
+}
+
+void EvictionSearch::enterVisit(const State& state, const Stay& visit, const State& entered) {
+  std::uint32_t weight = weight_ + weightOf(visit);
+  const Stay* const met = entered.time == state.end ? oncoming(*query_->placed, state.vertex,
+                                                               entered.vertex, entered.time)
+                                                    : nullptr;
+  if (met != nullptr) {
+    weight += weightOf(*met);
+  } else {
+    offered_.mark(entered.vertex, entered.time, visit.end);
+  }
+  push(entered, weight);
 }
 
 }  // namespace split_mapf

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "solver/search/bucket_queue.h"
+#include "solver/search/reached_steps.h"
 #include "solver/search/reservation_table.h"
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/distance_table.h"
@@ -52,31 +53,20 @@ class GapSearch {
 
   /// What the last search came upon, in no order.
   const std::vector<State>& states() const { return queue_.states(); }
-  /// Whether the last search found a way to be at `v` at step `t`: all such ways by which one could
-  /// still arrive in time, once there was no path.
-  bool reached(Vertex v, std::uint32_t t) const {
-    if (met_[v].search != search_number_) return false;
-    return (reached_[met_[v].row + t / 64] >> (t % 64) & 1U) != 0;
-  }
+  /// Where and when the last search could be: all of it from which one could still arrive in time,
+  /// once there was no path. Another search may go on with it.
+  ReachedSteps& reached() { return reached_; }
+  /// No search for that query goes beyond this step.
+  std::uint32_t latestArrival() const { return latest_arrival_; }
   /// Whether the state's gap was reached earlier, too.
   bool isOutdated(const State& state) const {
-    return state.time > 0 && reached(state.vertex, state.time - 1);
+    return state.time > 0 && reached_(state.vertex, state.time - 1);
   }
 
  private:
-  struct Met {
-    std::uint32_t search = 0;  // number of the search that met the vertex last
-    std::uint32_t row = 0;     // where its steps begin in reached_
-  };
-
-  void reset();
-  bool pushStart();
-  std::uint64_t* rowOf(Vertex v);
-  void meet(Met& met);
-  std::uint32_t reachGap(Vertex v, std::uint32_t from, std::uint32_t to);
+  bool begin();
   void expand(std::uint32_t index);
   void move(const State& state, std::uint32_t index, Vertex to);
-  bool swaps(const State& state, Vertex to, std::uint32_t t) const;
   void push(std::uint32_t parent, Vertex v, std::uint32_t time, std::uint32_t distance);
   std::uint32_t distanceOf(Vertex v) const {
     return narrow_ != nullptr ? narrow_[v] : (*query_->distances)(v);
@@ -90,10 +80,7 @@ class GapSearch {
   std::uint32_t first_estimate_ = 0;
   std::uint32_t estimate_ = 0;        // of the state that is expanded
   std::uint32_t arrived_ = kNoState;  // a state that holds the goal as soon as any can
-  std::uint32_t words_ = 0;           // of a row
-  std::vector<Met> met_;
-  std::vector<std::uint64_t> reached_;
-  std::uint32_t search_number_ = 0;
+  ReachedSteps reached_;
   BucketQueue<State> queue_;  // over arrival
 };
 
