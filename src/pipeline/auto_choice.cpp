@@ -33,6 +33,14 @@ double wallSeconds(const MethodEstimate& method, std::uint32_t threads) {
   return method.seconds / (1 + kParallelShare * (workers - 1));
 }
 
+double lastResortSec(const std::vector<MethodEstimate>& methods, const std::string& chosen) {
+  for (const MethodEstimate& method : methods) {
+    const bool asked = method.solver == kLastResort && method.split == "none";
+    if (asked && chosen != kLastResort) return method.seconds;
+  }
+  return 0;
+}
+
 bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -59,12 +67,13 @@ AutoChoice chooseMethod(const AutoQuestion& question, const CostModel& model) {
   std::vector<MethodEstimate> methods = candidates(question, model);
   if (methods.empty()) {
     return {question.solver == "auto" ? question.solvers.front() : question.solver,
-            question.split == "auto" ? "none" : question.split, "nothing is known of it"};
+            question.split == "auto" ? "none" : question.split, "nothing is known of it", 0};
   }
   const auto best = std::min_element(
       methods.begin(), methods.end(),
       [](const MethodEstimate& a, const MethodEstimate& b) { return a.excess < b.excess; });
   const double most = kComparable * (1 + best->excess) - 1;
+  const std::vector<MethodEstimate> all = methods;
   methods.erase(std::remove_if(methods.begin(), methods.end(),
                                [most](const MethodEstimate& m) { return m.excess > most; }),
                 methods.end());
@@ -81,7 +90,7 @@ AutoChoice chooseMethod(const AutoQuestion& question, const CostModel& model) {
                    });
   const MethodEstimate& first = methods.front();
   AutoChoice choice{first.solver, question.split == "auto" ? first.split : question.split,
-                    inSeconds(first.seconds) + " expected"};
+                    inSeconds(first.seconds) + " expected", lastResortSec(all, first.solver)};
   if (methods.size() > 1) {
     choice.reason += ", " + inSeconds(methods[1].seconds) + " by " + methods[1].solver;
     if (methods[1].split != "none") choice.reason += " in " + methods[1].split;

@@ -19,11 +19,15 @@ struct AutoQuestion {
   std::string split;                 ///< "auto", or the split that was asked for
 };
 
+/// Called when the time is nearly over: complete, and soon done where others are not.
+constexpr const char* kLastResort = "lacam";
+
 /// What `auto` stands for on this instance.
 struct AutoChoice {
   std::string solver;
   std::string split;
-  std::string reason;  ///< half a sentence for people
+  std::string reason;          ///< half a sentence for people
+  double last_resort_sec = 0;  ///< expected of kLastResort; 0 where it is chosen, or not known
 };
 
 /// Chooses, among the methods whose plans are expected to cost no more than a quarter above the

@@ -6,7 +6,6 @@
 #include <boost/pending/disjoint_sets.hpp>
 
 #include "solver/search/path_table.h"
-#include "solver/search/path_table.h"
 
 namespace split_mapf {
 namespace {

@@ -1,6 +1,7 @@
 #include "pipeline/plan_run.h"
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <numeric>
 #include <stdexcept>
@@ -24,6 +25,11 @@ constexpr std::uint32_t kReplanPasses = 3;
 // What the solver that `auto` chose may take before others are called: many times the usual.
 constexpr std::uint64_t kLeastExpansions = 5000000;
 constexpr std::uint64_t kExpansionsAStep = 1000;
+// The last resort is kept so many times what it is expected to take, at most a share of what is
+// left.
+constexpr double kReserve = 2;
+constexpr double kLargestReserve = 0.3;
+constexpr double kLeastReserveSec = 0.5;
 
 }  // namespace
 
@@ -33,10 +39,11 @@ PlanRun::PlanRun(const Instance& instance, CheckedRequest request, const SolverR
       request_(std::move(request)),
       executor_(executor),
       deadline_(deadline),
+      solve_deadline_(deadline),
       log_(progress),
       checker_(instance.graph()),
       solvers_(solvers),
-      piece_solver_(request_, solvers, executor, deadline, log_) {
+      piece_solver_(request_, solvers, executor, solve_deadline_, log_) {
   const PlanRequest& asked = request_.asked;
   report_.solver = asked.solver;
   report_.split = asked.split;
@@ -143,9 +150,17 @@ void PlanRun::choose() {
     // An incomplete solver may search for long where there is nothing to find; others wait.
     request_.solver_options.expansion_limit =
         kLeastExpansions + kExpansionsAStep * features_->sum_bound;
+    keepTimeForLastResort(choice.last_resort_sec);
   }
   if (open_split) request_.split = parseSplitSpec(choice.split);
   choice_ = " (chosen: " + choice.reason + ")";
+}
+
+void PlanRun::keepTimeForLastResort(double expected_sec) {
+  const double left = deadline_.remainingSec();
+  if (expected_sec <= 0 || !std::isfinite(left)) return;
+  const double wanted = std::max(kReserve * expected_sec, kLeastReserveSec);
+  solve_deadline_ = deadline_.within(left - std::min(wanted, kLargestReserve * left));
 }
 
 void PlanRun::searchOptimum() {
@@ -219,22 +234,28 @@ std::optional<Decomposition> PlanRun::split() {
 
 LadderOutcome PlanRun::climb(const Decomposition& tree) {
   if (!space_) {
-    return PieceLadder(piece_solver_, log_, timeSplitOptions(), deadline_)
+    return PieceLadder(piece_solver_, log_, timeSplitOptions(), solve_deadline_)
         .climb(tree, report_.subproblems);
   }
   PhaseLadder::Options options;
   options.time = timeSplitOptions();
   options.check_seams = request_.split_options.check != SplitOptions::Check::kNever;
   options.rescue = request_.split_options.rescue;
-  LadderOutcome outcome = PhaseLadder(*space_, piece_solver_, log_, std::move(options), deadline_)
-                              .climb(report_.subproblems);
+  LadderOutcome outcome =
+      PhaseLadder(*space_, piece_solver_, log_, std::move(options), solve_deadline_)
+          .climb(report_.subproblems);
   report_.layout = space_->layout();
   return outcome;
 }
 
 void PlanRun::callOthers(LadderOutcome& outcome) {
-  for (const std::string& solver : piece_solver_.rescuers()) {
-    if (!outcome.plans.empty() || outcome.last.termination != Termination::kNoPlanFound) return;
+  const bool late = outcome.last.termination == Termination::kTimeout && !deadline_.expired();
+  const std::vector<std::string> others =
+      late ? std::vector<std::string>{kLastResort} : piece_solver_.rescuers();
+  solve_deadline_ = deadline_;
+  for (const std::string& solver : others) {
+    const bool failed = late || outcome.last.termination == Termination::kNoPlanFound;
+    if (!outcome.plans.empty() || !failed) return;
     request_.solver = solver;
     request_.split = SplitSpec{};
     report_.subproblems.clear();  // they tell of the plan, and this one came to nothing

@@ -45,6 +45,8 @@ class PlanRun {
   /// Cuts in space; false when the deadline expired.
   bool splitSpace();
   LadderOutcome climb(const Decomposition& tree);
+  /// What `auto` chose gets all the time but what kLastResort is likely to need.
+  void keepTimeForLastResort(double expected_sec);
   /// Has the whole solved by other solvers while there is no plan and no proof.
   void callOthers(LadderOutcome& outcome);
 
@@ -52,6 +54,8 @@ class PlanRun {
   CheckedRequest request_;
   Executor& executor_;
   const Deadline& deadline_;
+  Deadline
+      solve_deadline_;  ///< of the method that `auto` chose: earlier, so that others get a turn
   RunLog log_;
   SolvabilityChecker checker_;
   const SolverRegistry& solvers_;

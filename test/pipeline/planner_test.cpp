@@ -10,6 +10,7 @@
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/validate.h"
 #include "split_mapf/solver/ecbs.h"
+#include "split_mapf/solver/lacam.h"
 #include "support/ascii_grid.h"
 #include "support/fake_solver.h"
 
@@ -126,6 +127,23 @@ TEST(Planner, AutoCallsOthersWhereItsChoiceFails) {
   EXPECT_EQ(
       planner.plan(instance, requestFor("conflict_optimizer", "none"), Deadline()).termination,
       Termination::kNoPlanFound)
+      << "a solver that was asked for stands alone";
+}
+
+TEST(Planner, AutoHasAPlanWhereItsChoiceIsNotDoneInTime) {
+  SolverRegistry registry;
+  registry.add(LacamSolver::info());
+  registry.add(test::fakeSolver("conflict_optimizer", test::waitForDeadline));
+  Executor executor(1);
+  const Instance instance = crossing();
+  const Planner planner(registry, executor);
+  const PlanReport report = planner.plan(instance, requestFor("auto", "none"), Deadline(2));
+  ASSERT_EQ(report.termination, Termination::kSolved) << report.message;
+  EXPECT_TRUE(validate(instance, *report.plan).empty());
+  EXPECT_EQ(report.message.find("solved by lacam"), 0U) << report.message;
+  EXPECT_EQ(
+      planner.plan(instance, requestFor("conflict_optimizer", "none"), Deadline(0.2)).termination,
+      Termination::kTimeout)
       << "a solver that was asked for stands alone";
 }
 
