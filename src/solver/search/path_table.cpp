@@ -31,11 +31,6 @@ void PathTable::remove(std::uint32_t robot, const Path& path) {
   });
 }
 
-void PathTable::clear() {
-  for (std::vector<Stay>& stays : stays_) stays.clear();
-  for (Timeline& timeline : timelines_) timeline.clear();
-}
-
 const Timeline& PathTable::timeline(Vertex v) const {
   static const Timeline undisturbed = {{0, kForever, 0, 0}};
   if (stays_[v].empty()) return undisturbed;

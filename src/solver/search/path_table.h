@@ -20,7 +20,6 @@ class PathTable {
   void insert(std::uint32_t robot, const Path& path);
   /// @pre `path` is what was inserted for the robot.
   void remove(std::uint32_t robot, const Path& path);
-  void clear();
 
   const std::vector<Stay>& at(Vertex v) const { return stays_[v]; }
   /// The timeline that all visits at `v` make. Kept until a path through `v` comes or goes: a
