@@ -12,7 +12,7 @@
 #include "pipeline/incumbent.h"
 #include "pipeline/refine_worker.h"
 #include "pipeline/window_descent.h"
-#include "solver/conflict_optimizer/placement.h"
+#include "solver/search/placement.h"
 
 namespace split_mapf {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/conflict_optimizer/placement.h"
+#include "solver/search/placement.h"
 #include "solver/search/robot_order.h"
 #include "split_mapf/core/option_values.h"
 #include "split_mapf/core/random.h"

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "solver/prioritized/effort.h"
-#include "solver/prioritized/placing.h"
 #include "solver/prioritized/repair.h"
+#include "solver/search/placement.h"
 #include "solver/search/replan_singly.h"
 #include "solver/search/robot_order.h"
 #include "split_mapf/core/option_values.h"
@@ -29,14 +29,8 @@ constexpr std::uint32_t kLeastGrowth = 5;
 class PrioritizedRun {
  public:
   PrioritizedRun(const Instance& instance, const PrioritizedSolver::Settings& settings,
-                 Objective objective, std::uint64_t seed, Effort& effort)
-      : instance_(instance),
-        settings_(settings),
-        objective_(objective),
-        seed_(seed),
-        effort_(effort) {
-    plan_.paths.resize(instance.robots());
-  }
+                 const SolverOptions& options, Effort& effort)
+      : instance_(instance), settings_(settings), options_(options), effort_(effort) {}
 
   /// @return whether plan() is valid.
   bool run();
@@ -50,8 +44,7 @@ class PrioritizedRun {
 
   const Instance& instance_;
   const PrioritizedSolver::Settings& settings_;
-  Objective objective_;
-  std::uint64_t seed_;
+  const SolverOptions& options_;
   Effort& effort_;
   Plan plan_;
   std::uint64_t tries_ = 0;
@@ -59,13 +52,20 @@ class PrioritizedRun {
 };
 
 bool PrioritizedRun::run() {
-  const std::uint32_t slack = objective_ == Objective::kMakespan ? 0 : kSlack;
+  const std::uint32_t slack = options_.objective == Objective::kMakespan ? 0 : kSlack;
   const std::uint32_t horizon = makespanLowerBound(instance_) + slack;
-  RandomEngine engine(seed_);
-  Placing placing(instance_, effort_, plan_.paths);
-  const std::vector<std::uint32_t> left_over =
-      placing.run(makeOrder(instance_, settings_.order, engine), settings_.demotions, horizon);
+  RandomEngine engine(options_.seed);
+  Placement placement(instance_, makeOrder(instance_, settings_.order, engine), options_.seed,
+                      std::max(1U, options_.threads));
+  Placement::Effort effort;
+  effort.patience = Placement::kNoLimit;
+  effort.expansion_limit = options_.expansion_limit;
+  effort.displacements = settings_.demotions;
+  const Placement::Outcome outcome = placement.run(horizon, effort, effort_.deadline());
+  effort_.spend(placement.expansions(), outcome == Placement::Outcome::kInterrupted);
   if (effort_.stopped()) return false;
+  plan_ = placement.plan();
+  const std::vector<std::uint32_t>& left_over = placement.leftOver();
   if (left_over.empty()) return true;
   if (settings_.repair) return repair(left_over, horizon);
   failure_ = std::to_string(left_over.size()) + " robots found no path around the others";
@@ -77,7 +77,7 @@ bool PrioritizedRun::repair(const std::vector<std::uint32_t>& left_over, std::ui
   for (std::uint32_t robot = 0; robot < instance_.robots(); ++robot) {
     if (!plan_.paths[robot].empty()) table.insert(robot, plan_.paths[robot]);
   }
-  Repair repair(instance_, seed_, effort_, table, plan_.paths);
+  Repair repair(instance_, options_.seed, effort_, table, plan_.paths);
   if (!repair.place(left_over, horizon)) return false;
   const std::uint64_t patience =
       std::max<std::uint64_t>(1, settings_.patience * std::max(kFewRobots, instance_.robots()));
@@ -101,10 +101,7 @@ void PrioritizedRun::polish() {
 
 }  // namespace
 
-PrioritizedSolver::PrioritizedSolver(const SolverOptions& options)
-    : objective_(options.objective),
-      seed_(options.seed),
-      expansion_limit_(options.expansion_limit) {
+PrioritizedSolver::PrioritizedSolver(const SolverOptions& options) : options_(options) {
   const OptionValues values(options.values);
   settings_.order = values.choice("order", settings_.order, robotOrders());
   settings_.demotions = values.count("demotions", settings_.demotions);
@@ -132,19 +129,19 @@ SolverInfo PrioritizedSolver::info() {
 
 SolveResult PrioritizedSolver::solve(const Instance& instance, const Deadline& deadline) const {
   if (const auto robot = findCutOffRobot(instance)) return cutOffResult(*robot);
-  Effort effort(expansion_limit_, deadline);
-  PrioritizedRun run(instance, settings_, objective_, seed_, effort);
+  Effort effort(options_.expansion_limit, deadline);
+  PrioritizedRun run(instance, settings_, options_, effort);
   SolveResult result;
-  result.lower_bound = lowerBound(instance, objective_);
+  result.lower_bound = lowerBound(instance, options_.objective);
   const bool planned = run.run();
-  if (!planned && effort.exhausted()) return outOfExpansions(expansion_limit_);
+  if (!planned && effort.exhausted()) return outOfExpansions(options_.expansion_limit);
   if (planned) run.polish();
   result.high_level_nodes = 1 + run.tries();
   result.low_level_expansions = effort.expansions();
   if (planned) {
     result.termination = Termination::kSolved;
     result.plan = run.plan();
-    certifyByLowerBound(result, objective_, "prioritized");
+    certifyByLowerBound(result, options_.objective, "prioritized");
   } else if (effort.stopped()) {
     result.termination = interruptionOf(deadline);
   } else {

@@ -14,7 +14,8 @@ namespace split_mapf {
 /// collisions, and a large-neighbourhood search plans groups of colliding robots anew until nobody
 /// collides.
 /// Fast and good where there is room; incomplete: it may fail on a solvable instance and then says
-/// kNoPlanFound, never kUnsolvable (a robot that is cut off excepted).
+/// kNoPlanFound, never kUnsolvable (a robot that is cut off excepted). Placing uses all the threads
+/// that it gets, see Placement.
 /// Source: Erdmann and Lozano-Perez, Algorithmica 1987; demotion in the spirit of Crombez et al.,
 /// SoCG 2021; repair after Li et al., AAAI 2022. Deviations: nobody arrives later than a horizon,
 /// at first the greatest shortest path or little more, which grows while the repair fails; see
@@ -37,9 +38,7 @@ class PrioritizedSolver : public Solver {
   static SolverInfo info();
 
  private:
-  Objective objective_;
-  std::uint64_t seed_;
-  std::uint64_t expansion_limit_;
+  SolverOptions options_;
   Settings settings_;
 };
 

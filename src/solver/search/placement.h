@@ -13,13 +13,16 @@
 
 namespace split_mapf {
 
-/// The state of a conflict optimisation: who is placed and where, who waits, what everybody weighs.
-/// The placed paths never conflict. Not thread-safe.
-/// The next few robots of the queue are searched for side by side, against what is placed, and then
-/// placed one after another; who meets one placed before it in the same batch waits for the next.
-/// Where that happens often, batches are small. None of it depends on the number of threads.
+/// Places robots within a horizon: who is placed and where, who waits, what everybody weighs. Each
+/// takes the path that displaces placed robots of the least weight; who is displaced waits again
+/// and weighs more, the square of how often it waited. The placed paths never conflict. Not
+/// thread-safe. The next few robots of the queue are searched for side by side, against what is
+/// placed, and then placed one after another; who meets one placed before it in the same batch
+/// waits for the next. Where that happens often, batches are small. None of it depends on the
+/// number of threads.
 class Placement {
  public:
+  static constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};
   /// Placings that depart late, once a horizon has proved hard.
   static constexpr std::uint32_t kDelayedOneIn = 4;
   enum class Outcome { kDone, kSpent, kExhausted, kInterrupted };
@@ -36,6 +39,9 @@ class Placement {
     /// Placements without fewer robots waiting than ever before in this run.
     std::uint64_t patience = 0;
     std::uint64_t expansion_limit = 0;  ///< in all runs; 0: none
+    /// How often a robot may be displaced; a robot that could only displace one that was displaced
+    /// so often is left over.
+    std::uint64_t displacements = kNoLimit;
     /// One placing in so many departs a random while later, as some knots need a robot that lets
     /// the others pass first; 0: none does.
     std::uint32_t delayed_one_in = 0;
@@ -45,6 +51,8 @@ class Placement {
   Outcome run(std::uint32_t horizon, const Effort& effort, const Deadline& deadline);
   std::uint64_t expansions() const { return expansions_; }
   const Plan& plan() const { return plan_; }
+  /// Who has no path and waits no more, in order.
+  const std::vector<std::uint32_t>& leftOver() const { return left_over_; }
 
  private:
   struct Candidate {
@@ -53,8 +61,9 @@ class Placement {
     GapAnswer answer;
   };
   void drawBatch(std::uint32_t horizon, const Effort& effort);
-  void searchBatch(std::uint32_t horizon, const Deadline& deadline);
-  bool place(Candidate& candidate);
+  void searchBatch(std::uint32_t horizon, const Effort& effort, const Deadline& deadline);
+  bool place(Candidate& candidate, std::uint64_t displacements);
+  bool mayDisplace(const std::vector<std::uint32_t>& robots, std::uint64_t displacements) const;
   void adaptBatch(std::size_t postponed);
   void remove(std::uint32_t robot);
   void requeue(std::uint32_t robot);
@@ -69,6 +78,7 @@ class Placement {
   std::deque<std::uint32_t> queue_;     // next first
   std::vector<std::uint32_t> queued_;   // how often, by robot
   std::vector<std::uint32_t> weights_;  // by robot
+  std::vector<std::uint32_t> left_over_;
   std::vector<Candidate> batch_;
   std::vector<std::uint32_t> placed_in_;  // by robot: number of the batch that placed it last
   std::uint32_t batch_number_ = 0;

@@ -1,4 +1,4 @@
-#include "solver/conflict_optimizer/placement.h"
+#include "solver/search/placement.h"
 
 #include <algorithm>
 #include <utility>
@@ -72,13 +72,13 @@ void Placement::drawBatch(std::uint32_t horizon, const Effort& effort) {
   ++batch_number_;
 }
 
-void Placement::searchBatch(std::uint32_t horizon, const Deadline& deadline) {
+void Placement::searchBatch(std::uint32_t horizon, const Effort& effort, const Deadline& deadline) {
   team_.forEach(static_cast<std::uint32_t>(batch_.size()),
                 [&](std::uint32_t i, std::uint32_t member) {
                   Candidate& candidate = batch_[i];
                   EvictionQuery query;
                   query.placed = &table_;
-                  query.weights = &weights_;
+                  query.weights = effort.displacements > 0 ? &weights_ : nullptr;
                   query.latest_arrival = horizon;
                   query.start = instance_.start(candidate.robot);
                   query.distances = &instance_.distances(candidate.robot);
@@ -87,11 +87,27 @@ void Placement::searchBatch(std::uint32_t horizon, const Deadline& deadline) {
                 });
 }
 
-bool Placement::place(Candidate& candidate) {
+bool Placement::mayDisplace(const std::vector<std::uint32_t>& robots,
+                            std::uint64_t displacements) const {
+  return std::all_of(robots.begin(), robots.end(), [&](std::uint32_t robot) {
+    return queued_[robot] - 1 < displacements;  // it waited once before it was placed first
+  });
+}
+
+/// @return whether the robot's turn is over: it is placed, or left over.
+bool Placement::place(Candidate& candidate, std::uint64_t displacements) {
   Path& path = candidate.answer.path;
+  if (path.empty()) {
+    left_over_.push_back(candidate.robot);
+    return true;
+  }
   const std::vector<std::uint32_t> in_the_way = robotsInTheWay(table_.paths(), path);
   for (const std::uint32_t other : in_the_way) {
     if (placed_in_[other] == batch_number_) return false;
+  }
+  if (!mayDisplace(in_the_way, displacements)) {
+    left_over_.push_back(candidate.robot);
+    return true;
   }
   for (const std::uint32_t other : in_the_way) {
     remove(other);
@@ -122,14 +138,14 @@ Placement::Outcome Placement::run(std::uint32_t horizon, const Effort& effort,
     }
     if (deadline.expired()) return Outcome::kInterrupted;
     drawBatch(horizon, effort);
-    searchBatch(horizon, deadline);
+    searchBatch(horizon, effort, deadline);
     queue_.erase(queue_.begin(), queue_.begin() + static_cast<std::ptrdiff_t>(batch_.size()));
     postponed.clear();
     bool interrupted = false;
     for (Candidate& candidate : batch_) {
       expansions_ += candidate.answer.expansions;
       interrupted = interrupted || candidate.answer.interrupted;
-      if (interrupted || !place(candidate)) {
+      if (interrupted || !place(candidate, effort.displacements)) {
         postponed.push_back(candidate.robot);
       } else if (left > 0) {
         --left;
