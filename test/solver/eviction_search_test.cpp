@@ -16,7 +16,9 @@
 namespace split_mapf {
 namespace {
 
-constexpr std::uint32_t kHorizon = 30;  // all arrive by then
+// Everything begins at this step in half of the cases: the searches keep 64 steps in a word.
+constexpr std::uint32_t kLateBegin = 55;
+constexpr std::uint32_t kHorizon = kLateBegin + 30;  // all arrive by then
 constexpr std::uint32_t kNobody = 0xffffffffU;
 
 /// A random case: robots on paths without conflicts, what it costs to evict each, and a question.
@@ -41,8 +43,8 @@ bool meets(const Path& a, const Path& b) {
   return false;
 }
 
-Path randomWalk(const Grid& grid, RandomEngine& engine) {
-  Path path = {static_cast<Vertex>(drawBelow(engine, grid.size()))};
+Path randomWalk(const Grid& grid, RandomEngine& engine, std::uint32_t begin) {
+  Path path(begin + 1, static_cast<Vertex>(drawBelow(engine, grid.size())));
   for (std::uint64_t steps = drawBelow(engine, 12); steps > 0; --steps) {
     const VertexRange around = grid.graph().neighbours(path.back());
     const std::uint64_t pick = drawBelow(engine, around.size() + 1);
@@ -59,8 +61,9 @@ Case randomCase(std::uint64_t seed) {
   for (std::size_t i = 0; i < free.size(); ++i) free[i] = drawBelow(engine, 5) > 0;
   free[0] = free[1] = true;
   c.grid = std::make_shared<const Grid>(5, 4, free);
+  const std::uint32_t begin = seed % 2 == 0 ? 0 : kLateBegin;
   for (std::uint64_t tries = drawBelow(engine, 12); tries > 0; --tries) {
-    const Path path = randomWalk(*c.grid, engine);
+    const Path path = randomWalk(*c.grid, engine, begin);
     if (std::any_of(c.placed.begin(), c.placed.end(),
                     [&](const Path& other) { return meets(path, other); })) {
       continue;
@@ -70,8 +73,10 @@ Case randomCase(std::uint64_t seed) {
   }
   c.start = static_cast<Vertex>(drawBelow(engine, c.grid->size()));
   c.goal = static_cast<Vertex>(drawBelow(engine, c.grid->size()));
-  c.latest_arrival = static_cast<std::uint32_t>(drawBelow(engine, kHorizon));
-  if (drawBelow(engine, 3) == 0) c.departure = static_cast<std::uint32_t>(drawBelow(engine, 6));
+  c.latest_arrival = begin + static_cast<std::uint32_t>(drawBelow(engine, kHorizon - kLateBegin));
+  // Who departs early has time enough to go anywhere, or to wait for long.
+  if (drawBelow(engine, 3) > 0) c.departure = begin;
+  if (drawBelow(engine, 3) == 0) c.departure += static_cast<std::uint32_t>(drawBelow(engine, 6));
   return c;
 }
 
