@@ -33,10 +33,9 @@ double wallSeconds(const MethodEstimate& method, std::uint32_t threads) {
   return method.seconds / (1 + kParallelShare * (workers - 1));
 }
 
-double lastResortSec(const std::vector<MethodEstimate>& methods, const std::string& chosen) {
+double lastResortSec(const std::vector<MethodEstimate>& methods) {
   for (const MethodEstimate& method : methods) {
-    const bool asked = method.solver == kLastResort && method.split == "none";
-    if (asked && chosen != kLastResort) return method.seconds;
+    if (method.solver == kLastResort && method.split == "none") return method.seconds;
   }
   return 0;
 }
@@ -73,7 +72,7 @@ AutoChoice chooseMethod(const AutoQuestion& question, const CostModel& model) {
       methods.begin(), methods.end(),
       [](const MethodEstimate& a, const MethodEstimate& b) { return a.excess < b.excess; });
   const double most = kComparable * (1 + best->excess) - 1;
-  const std::vector<MethodEstimate> all = methods;
+  const double last_resort_sec = lastResortSec(methods);
   methods.erase(std::remove_if(methods.begin(), methods.end(),
                                [most](const MethodEstimate& m) { return m.excess > most; }),
                 methods.end());
@@ -90,7 +89,8 @@ AutoChoice chooseMethod(const AutoQuestion& question, const CostModel& model) {
                    });
   const MethodEstimate& first = methods.front();
   AutoChoice choice{first.solver, question.split == "auto" ? first.split : question.split,
-                    inSeconds(first.seconds) + " expected", lastResortSec(all, first.solver)};
+                    inSeconds(first.seconds) + " expected",
+                    first.solver == kLastResort ? 0 : last_resort_sec};
   if (methods.size() > 1) {
     choice.reason += ", " + inSeconds(methods[1].seconds) + " by " + methods[1].solver;
     if (methods[1].split != "none") choice.reason += " in " + methods[1].split;

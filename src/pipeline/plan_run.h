@@ -54,8 +54,7 @@ class PlanRun {
   CheckedRequest request_;
   Executor& executor_;
   const Deadline& deadline_;
-  Deadline
-      solve_deadline_;  ///< of the method that `auto` chose: earlier, so that others get a turn
+  Deadline solve_deadline_;  ///< of what `auto` chose: earlier, so that others get a turn
   RunLog log_;
   SolvabilityChecker checker_;
   const SolverRegistry& solvers_;

@@ -133,11 +133,17 @@ TEST(Planner, AutoCallsOthersWhereItsChoiceFails) {
 TEST(Planner, AutoHasAPlanWhereItsChoiceIsNotDoneInTime) {
   SolverRegistry registry;
   registry.add(LacamSolver::info());
-  registry.add(test::fakeSolver("conflict_optimizer", test::waitForDeadline));
+  std::atomic<int> asked{0};
+  registry.add(test::fakeSolver("conflict_optimizer",
+                                [&asked](const Instance& instance, const Deadline& deadline) {
+                                  ++asked;
+                                  return test::waitForDeadline(instance, deadline);
+                                }));
   Executor executor(1);
   const Instance instance = crossing();
   const Planner planner(registry, executor);
   const PlanReport report = planner.plan(instance, requestFor("auto", "none"), Deadline(2));
+  EXPECT_EQ(asked, 1) << "it is the choice";
   ASSERT_EQ(report.termination, Termination::kSolved) << report.message;
   EXPECT_TRUE(validate(instance, *report.plan).empty());
   EXPECT_EQ(report.message.find("solved by lacam"), 0U) << report.message;

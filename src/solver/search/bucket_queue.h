@@ -9,23 +9,6 @@
 
 namespace split_mapf {
 
-/// The path that ends with a state, by the parents of states in an array; where no state stands for
-/// a step the robot waits. A state has members `vertex`, `time` and `parent`.
-template <typename State>
-Path pathOf(const std::vector<State>& states, std::uint32_t index) {
-  constexpr std::uint32_t kNoState = 0xffffffffU;
-  Path path(states[index].time + std::size_t{1});
-  auto end = path.end();
-  for (;; index = states[index].parent) {
-    const State& state = states[index];
-    const auto begin =
-        state.parent == kNoState ? path.begin() : path.begin() + std::ptrdiff_t{state.time};
-    std::fill(begin, end, state.vertex);
-    if (state.parent == kNoState) return path;
-    end = begin;
-  }
-}
-
 /// The states of a search in an array, and those that are open in buckets of small keys, last in
 /// first out. A state has members `vertex`, `time`, `parent` (index of a state, kNoState for the
 /// first) and `next`, which belongs to the queue. Keeps its memory between searches.
@@ -73,8 +56,20 @@ class BucketQueue {
     --open_;
     return index;
   }
-  /// The path that ends with a state, see pathOf().
-  Path pathTo(std::uint32_t index) const { return pathOf(states_, index); }
+  /// The path that ends with a state; where no state stands for a step the robot waits.
+  Path pathTo(std::uint32_t index) const {
+    Path path(states_[index].time + std::size_t{1});
+    auto end = path.end();
+    for (;; index = states_[index].parent) {
+      const State& state = states_[index];
+      const auto begin =
+          state.parent == kNoState ? path.begin() : path.begin() + std::ptrdiff_t{state.time};
+      std::fill(begin, end, state.vertex);
+      if (state.parent == kNoState) break;
+      end = begin;
+    }
+    return path;
+  }
 
  private:
   std::vector<State> states_;

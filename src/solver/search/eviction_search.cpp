@@ -42,6 +42,8 @@ void EvictionSearch::reset() {
   weight_ = 0;
 }
 
+bool EvictionSearch::comesLater(const Waiting& a, const Waiting& b) { return a.weight > b.weight; }
+
 bool EvictionSearch::inTime(Vertex v, std::uint32_t t) const {
   const std::uint32_t distance = (*query_->distances)(v);
   return distance <= latest_arrival_ && t <= latest_arrival_ - distance;
@@ -93,8 +95,7 @@ void EvictionSearch::push(const State& state, std::uint32_t weight) {
   if (weight == weight_) return open(index);
   if (weight < kLists) return waiting_[weight].push_back(index);
   heap_.push_back({weight, index});
-  std::push_heap(heap_.begin(), heap_.end(),
-                 [](const Waiting& a, const Waiting& b) { return a.weight > b.weight; });
+  std::push_heap(heap_.begin(), heap_.end(), comesLater);
 }
 
 /// Opens a state whose weight has its turn, unless what is open reached it already.
@@ -124,8 +125,7 @@ bool EvictionSearch::openNextWeight() {
     weight_ = heap_.front().weight;
     while (!heap_.empty() && heap_.front().weight == weight_) {
       const std::uint32_t index = heap_.front().index;
-      std::pop_heap(heap_.begin(), heap_.end(),
-                    [](const Waiting& a, const Waiting& b) { return a.weight > b.weight; });
+      std::pop_heap(heap_.begin(), heap_.end(), comesLater);
       heap_.pop_back();
       open(index);
     }
@@ -175,19 +175,12 @@ void EvictionSearch::moveIntoGaps(const State& state, std::uint32_t index, Verte
   const std::uint32_t last = std::min(state.end, latest_arrival_ - distance);
   const ReservationTable& placed = *query_->placed;
   ReachedSteps& reached = gaps_.reached();
-  const std::uint64_t* const words = reached.row(to);
-  forEachStep(
-      state.time + 1, last,
-      [&](std::uint32_t word) { return ~placed.taken(to, word) & ~words[word]; },
-      [&](std::uint32_t first) {
-        if (first == state.end && oncoming(placed, state.vertex, to, first) != nullptr) {
-          return false;
-        }
-        const std::uint32_t end =
-            reached.markGap(placed, to, first, latest_arrival_ - distance + 1);
-        queue_.push({to, first, end, kNone, index}, first + distance);
-        return true;
-      });
+  forEachNewGap(placed, reached, {state.vertex, to, state.end, state.time + 1, last},
+                [&](std::uint32_t first) {
+                  const std::uint32_t end =
+                      reached.markGap(placed, to, first, latest_arrival_ - distance + 1);
+                  queue_.push({to, first, end, kNone, index}, first + distance);
+                });
 }
 
 void EvictionSearch::moveIntoVisits(const State& state, std::uint32_t index, Vertex to) {
@@ -226,7 +219,7 @@ void EvictionSearch::moveAtLast(const State& state, std::uint32_t index, Vertex 
     if (next->robot == state.robot) push({to, t, next->end, next->robot, index}, weight_);
     return;
   }
-  const Stay* const met = oncoming(*query_->placed, state.vertex, to, t);
+  const Stay* const met = query_->placed->oncoming(state.vertex, to, t);
   if (met == nullptr) return;
   const std::uint32_t end = next == nullptr ? kForever : next->begin;
   push({to, t, end, kNone, index}, weight_ + weightOf(*met));
@@ -234,9 +227,9 @@ void EvictionSearch::moveAtLast(const State& state, std::uint32_t index, Vertex 
 
 void EvictionSearch::enterVisit(const State& state, const Stay& visit, const State& entered) {
   std::uint32_t weight = weight_ + weightOf(visit);
-  const Stay* const met = entered.time == state.end ? oncoming(*query_->placed, state.vertex,
-                                                               entered.vertex, entered.time)
-                                                    : nullptr;
+  const Stay* const met = entered.time == state.end
+                              ? query_->placed->oncoming(state.vertex, entered.vertex, entered.time)
+                              : nullptr;
   if (met != nullptr) {
     weight += weightOf(*met);
   } else {

@@ -49,6 +49,7 @@ class EvictionSearch {
     std::uint32_t weight;
     std::uint32_t index;
   };
+  static bool comesLater(const Waiting& a, const Waiting& b);
 
   void reset();
   bool pushStart();

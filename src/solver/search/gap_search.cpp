@@ -31,18 +31,8 @@ inline void GapSearch::move(const State& state, std::uint32_t index, Vertex to) 
   const std::uint32_t soonest = state.time + 1;
   const std::uint32_t last = std::min(state.leave_by, latest_arrival_ - distance);
   if (soonest > last) return;
-  const ReservationTable& placed = *query_->placed;
-  const std::uint64_t* const reached = reached_.row(to);
-  forEachStep(
-      soonest, last, [&](std::uint32_t word) { return ~placed.taken(to, word) & ~reached[word]; },
-      [&](std::uint32_t first) {
-        // Only at the last step somebody may come towards it.
-        if (first == state.leave_by && oncoming(placed, state.vertex, to, first) != nullptr) {
-          return false;
-        }
-        push(index, to, first, distance);
-        return true;
-      });
+  forEachNewGap(*query_->placed, reached_, {state.vertex, to, state.leave_by, soonest, last},
+                [&](std::uint32_t first) { push(index, to, first, distance); });
 }
 
 void GapSearch::expand(std::uint32_t index) {

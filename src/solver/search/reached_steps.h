@@ -96,16 +96,32 @@ void forEachStep(std::uint32_t first, std::uint32_t last, Choose choose, Enter e
   }
 }
 
-/// Whether somebody comes from `to` to `from` at the very step `t` at which the robot that asks
-/// would go the other way. @return that visit to `to`, null if nobody does.
-inline const Stay* oncoming(const ReservationTable& placed, Vertex from, Vertex to,
-                            std::uint32_t t) {
-  if (!placed.isTaken(to, t - 1) || !placed.isTaken(from, t)) return nullptr;
-  const std::vector<Stay>& stays = placed.at(to);
-  const auto before = std::partition_point(stays.begin(), stays.end(),
-                                           [t](const Stay& stay) { return stay.end < t; });
-  const bool comes = before != stays.end() && before->end == t && before->next == from;
-  return comes ? &*before : nullptr;
+/// A robot is at `from` until somebody comes there at step `leave_by`, and may move to `to`.
+struct GapMove {
+  Vertex from;
+  Vertex to;
+  std::uint32_t leave_by;
+  std::uint32_t soonest;  ///< arrival
+  std::uint32_t last;     ///< arrival that is still in time, leave_by at most
+};
+
+/// Calls enter(step) with the first step of each gap of `to` that the move leads into at no one's
+/// expense and that is not reached yet. @pre enter() marks the gap.
+template <typename Enter>
+void forEachNewGap(const ReservationTable& placed, ReachedSteps& reached, const GapMove& move,
+                   Enter enter) {
+  const std::uint64_t* const words = reached.row(move.to);
+  forEachStep(
+      move.soonest, move.last,
+      [&](std::uint32_t word) { return ~placed.taken(move.to, word) & ~words[word]; },
+      [&](std::uint32_t first) {
+        // Only at the last step somebody may come towards it.
+        if (first == move.leave_by && placed.oncoming(move.from, move.to, first) != nullptr) {
+          return false;
+        }
+        enter(first);
+        return true;
+      });
 }
 
 }  // namespace split_mapf

@@ -46,4 +46,13 @@ void ReservationTable::coverSteps(std::size_t steps) {
   words_ = words;
 }
 
+const Stay* ReservationTable::oncoming(Vertex from, Vertex to, std::uint32_t t) const {
+  if (!isTaken(to, t - 1) || !isTaken(from, t)) return nullptr;
+  const std::vector<Stay>& stays = at(to);
+  const auto before = std::partition_point(stays.begin(), stays.end(),
+                                           [t](const Stay& stay) { return stay.end < t; });
+  const bool comes = before != stays.end() && before->end == t && before->next == from;
+  return comes ? &*before : nullptr;
+}
+
 }  // namespace split_mapf

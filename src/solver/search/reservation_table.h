@@ -31,6 +31,9 @@ class ReservationTable {
   }
 
   bool isTaken(Vertex v, std::uint32_t t) const { return (taken(v, t / 64) >> (t % 64) & 1U) != 0; }
+  /// The visit to `to` of a robot that goes from there to `from` at the very step `t` at which the
+  /// robot that asks would go the other way; null if nobody does. @pre t > 0.
+  const Stay* oncoming(Vertex from, Vertex to, std::uint32_t t) const;
   /// A step after which nobody moves any more.
   std::uint32_t lastChange() const { return 64 * words_ - 1; }
 
