@@ -1,5 +1,7 @@
 #include "split_mapf/core/distance_table.h"
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 namespace split_mapf {
@@ -21,10 +23,11 @@ DistanceTable::DistanceTable(const Graph& graph, Vertex goal, DistanceExtent ext
 void DistanceTable::searchAll(const Graph& graph) {
   // Kept a thread: a fresh queue for each of a thousand tables costs more than the search.
   thread_local std::vector<Vertex> queue;
-  if (queue.size() < graph.size()) queue.resize(graph.size());
+  if (queue.size() <= graph.size()) queue.resize(graph.size() + 1);
   std::size_t head = 0;
   std::size_t tail = 0;
   queue[tail++] = goal_;
+  if (graph.rowsOfFour() != nullptr) searchByFours(graph.rowsOfFour(), queue.data(), head, tail);
   for (; head < tail; ++head) {
     const Vertex v = queue[head];
     const auto next = static_cast<std::uint16_t>(narrow_[v] + 1);
@@ -35,6 +38,32 @@ void DistanceTable::searchAll(const Graph& graph) {
       queue[tail++] = u;
     }
   }
+}
+
+void DistanceTable::searchByFours(const Vertex* rows, Vertex* queue, std::size_t& head,
+                                  std::size_t& tail) {
+  std::uint16_t* const distance = narrow_.data();
+  std::size_t end = tail;
+  std::size_t from = head;
+  // Whether a neighbour is new cannot be predicted: all are written behind the queue's end, which
+  // moves on past the new ones. The four differ, or are the vertex itself, which is known.
+  for (; from < end; ++from) {
+    const Vertex v = queue[from];
+    const auto next = static_cast<std::uint16_t>(distance[v] + 1);
+    if (next == kNarrowUnknown) break;
+    const Vertex* const row = rows + std::size_t{v} * 4;
+    std::array<Vertex, 4> u{};
+    std::array<std::uint16_t, 4> known{};
+    for (std::size_t i = 0; i < 4; ++i) u[i] = row[i];
+    for (std::size_t i = 0; i < 4; ++i) known[i] = distance[u[i]];
+    for (std::size_t i = 0; i < 4; ++i) {
+      queue[end] = u[i];
+      end += known[i] == kNarrowUnknown ? 1 : 0;
+    }
+    for (std::size_t i = 0; i < 4; ++i) distance[u[i]] = std::min(known[i], next);
+  }
+  head = from;
+  tail = end;
 }
 
 void DistanceTable::searchWide(const Graph& graph, std::vector<Vertex>& queue, std::size_t head,

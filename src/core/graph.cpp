@@ -33,6 +33,19 @@ Graph::Graph(std::uint32_t size, const std::vector<std::pair<Vertex, Vertex>>& e
   }
   offsets_[size] = end;
   targets_.resize(end);
+  fillRowsOfFour();
+}
+
+void Graph::fillRowsOfFour() {
+  for (Vertex v = 0; v < size(); ++v) {
+    if (neighbours(v).size() > 4) return;
+  }
+  fours_.resize(std::size_t{size()} * 4);
+  auto row = fours_.begin();
+  for (Vertex v = 0; v < size(); ++v, row += 4) {
+    const VertexRange known = neighbours(v);
+    std::fill(std::copy(known.begin(), known.end(), row), row + 4, v);
+  }
 }
 
 bool Graph::adjacent(Vertex a, Vertex b) const {

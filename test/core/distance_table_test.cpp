@@ -62,6 +62,25 @@ TEST(DistanceTable, AgreesWithRelaxationOnRandomGrids) {
   }
 }
 
+TEST(DistanceTable, AgreesWithRelaxationOnGraphsOfAnyDegree) {
+  std::uint32_t rows_of_four = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    RandomEngine engine(seed);
+    std::vector<std::pair<Vertex, Vertex>> edges(drawBelow(engine, 60));
+    for (auto& [a, b] : edges) {
+      a = static_cast<Vertex>(drawBelow(engine, 20));
+      b = static_cast<Vertex>(drawBelow(engine, 20));
+    }
+    const Graph graph(20, edges);
+    if (graph.rowsOfFour() != nullptr) ++rows_of_four;
+    const std::vector<std::uint32_t> expected = relax(graph, 0);
+    const DistanceTable table(graph, 0);
+    for (Vertex v = 0; v < graph.size(); ++v) EXPECT_EQ(table(v), expected[v]) << "seed " << seed;
+  }
+  EXPECT_GT(rows_of_four, 20U);
+  EXPECT_LT(rows_of_four, 80U) << "both searches have their turns";
+}
+
 /// A path graph: the distance from one end is the vertex itself.
 Graph chain(std::uint32_t size) {
   std::vector<std::pair<Vertex, Vertex>> edges;

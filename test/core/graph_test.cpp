@@ -36,6 +36,15 @@ TEST(Graph, RefusesAnEdgeToNowhere) {
   EXPECT_THROW(Graph(0, {{0, 0}}), std::out_of_range);
 }
 
+TEST(Graph, KeepsRowsOfFourWhileNoVertexHasMore) {
+  const Graph star(6, {{0, 1}, {2, 0}, {0, 3}, {4, 0}});
+  ASSERT_NE(star.rowsOfFour(), nullptr);
+  const std::vector<Vertex> rows(star.rowsOfFour(), star.rowsOfFour() + 24);
+  EXPECT_EQ(rows, (std::vector<Vertex>{1, 2, 3, 4, 0, 1, 1, 1, 0, 2, 2, 2,  //
+                                       0, 3, 3, 3, 0, 4, 4, 4, 5, 5, 5, 5}));
+  EXPECT_EQ(Graph(6, {{0, 1}, {0, 2}, {0, 3}, {0, 4}, {0, 5}}).rowsOfFour(), nullptr);
+}
+
 TEST(Graph, MayBeEmpty) {
   EXPECT_EQ(Graph().size(), 0U);
   EXPECT_EQ(Graph(0, {}).size(), 0U);

@@ -53,6 +53,9 @@ class DistanceTable {
     return std::size_t{page_of_[v >> kPageBits]} * kPageSize + v % kPageSize;
   }
   void searchAll(const Graph& graph);
+  /// Goes on until the queue is empty or a distance outgrows 16 bits. @pre the queue has room for
+  /// one vertex more than the graph has.
+  void searchByFours(const Vertex* rows, Vertex* queue, std::size_t& head, std::size_t& tail);
   /// Goes on with 32 bits from a queue whose distances outgrow 16.
   void searchWide(const Graph& graph, std::vector<Vertex>& queue, std::size_t head,
                   std::size_t tail);
