@@ -48,9 +48,14 @@ class BucketQueue {
     last_ = std::max(last_, key);
     ++open_;
   }
+  /// @pre not empty.
+  std::size_t leastKey() {
+    while (buckets_[current_] == kNoState) ++current_;
+    return current_;
+  }
   /// A state of the least key. @pre not empty.
   std::uint32_t pop() {
-    while (buckets_[current_] == kNoState) ++current_;
+    leastKey();
     const std::uint32_t index = buckets_[current_];
     buckets_[current_] = states_[index].next;
     --open_;

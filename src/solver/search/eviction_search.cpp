@@ -16,18 +16,24 @@ GapAnswer EvictionSearch::search(const EvictionQuery& query, const Deadline& dea
   GapAnswer answer = gaps_.search(query, deadline);
   if (!answer.path.empty() || answer.interrupted || query.weights == nullptr) return answer;
   query_ = &query;
+  narrow_ = query.distances->narrowEntries();
   reset();
   if (!pushStart()) return answer;
-  for (std::uint32_t index = pop(); index != kNone; index = pop()) {
-    const State& state = queue_[index];
-    if (state.robot == kArrived) {
-      answer.path = queue_.pathTo(index);
-      return answer;
-    }
-    if (++answer.expansions % kPollEvery == 0 && deadline.expired()) {
+  for (std::uint64_t turn = 1; hasTurn(); ++turn) {
+    if (turn % kPollEvery == 0 && deadline.expired()) {
       answer.interrupted = true;
       return answer;
     }
+    if (isEvictionsTurn()) {
+      evictFrom(turn_[evicted_++]);
+      continue;
+    }
+    const std::uint32_t index = queue_.pop();
+    if (queue_[index].robot == kArrived) {
+      answer.path = queue_.pathTo(index);
+      return answer;
+    }
+    ++answer.expansions;
     expand(index);
   }
   return answer;
@@ -39,13 +45,16 @@ void EvictionSearch::reset() {
   queue_.clear();
   heap_.clear();
   for (auto& waiting : waiting_) waiting.clear();
+  expanded_.clear();
+  turn_.clear();
+  evicted_ = 0;
   weight_ = 0;
 }
 
 bool EvictionSearch::comesLater(const Waiting& a, const Waiting& b) { return a.weight > b.weight; }
 
 bool EvictionSearch::inTime(Vertex v, std::uint32_t t) const {
-  const std::uint32_t distance = (*query_->distances)(v);
+  const std::uint32_t distance = distanceOf(v);
   return distance <= latest_arrival_ && t <= latest_arrival_ - distance;
 }
 
@@ -81,12 +90,14 @@ bool EvictionSearch::pushStart() {
 }
 
 void EvictionSearch::leaveGaps() {
-  const std::vector<GapSearch::State>& reached = gaps_.states();
-  for (const GapSearch::State& state : reached) {
-    queue_.add({state.vertex, state.time, state.leave_by, kNone, state.parent});
+  for (const GapSearch::State& state : gaps_.states()) {
+    const std::uint32_t index =
+        queue_.add({state.vertex, state.time, state.leave_by, kNone, state.parent});
+    if (!gaps_.isOutdated(state)) queue_.open(index, estimateOf(index));
   }
-  for (std::uint32_t index = 0; index < reached.size(); ++index) {
-    if (!gaps_.isOutdated(reached[index])) evictFrom(State(queue_[index]), index);
+  while (!queue_.empty()) {
+    expanded_.push_back(queue_.pop());
+    arrive(State(queue_[expanded_.back()]));
   }
 }
 
@@ -105,74 +116,109 @@ void EvictionSearch::open(std::uint32_t index) {
     if (gaps_.reached()(state.vertex, state.time)) return;
     gaps_.reached().mark(state.vertex, state.time, state.end);
   }
-  queue_.open(index, state.time + (*query_->distances)(state.vertex));
+  queue_.open(index, estimateOf(index));
 }
 
-std::uint32_t EvictionSearch::pop() {
-  return !queue_.empty() || openNextWeight() ? queue_.pop() : kNone;
+bool EvictionSearch::hasTurn() {
+  return !queue_.empty() || evicted_ < turn_.size() || openNextWeight();
+}
+
+/// Whether evicting from the state that has its turn could lead to an earlier arrival than all that
+/// is open.
+bool EvictionSearch::isEvictionsTurn() {
+  if (evicted_ == turn_.size()) return false;
+  return queue_.empty() || estimateOf(turn_[evicted_]) < queue_.leastKey();
 }
 
 bool EvictionSearch::openNextWeight() {
+  turn_.clear();
+  turn_.swap(expanded_);
+  evicted_ = 0;
+  if (!turn_.empty()) {  // nobody weighs less than 1
+    ++weight_;
+    openWaiting();
+    return true;
+  }
   for (; weight_ < kLists; ++weight_) {
-    std::vector<std::uint32_t> turn;
-    turn.swap(waiting_[weight_]);
-    for (const std::uint32_t index : turn) open(index);
-    turn.clear();
-    turn.swap(waiting_[weight_]);  // its memory is kept
+    openWaiting();
     if (!queue_.empty()) return true;
   }
   while (queue_.empty() && !heap_.empty()) {
     weight_ = heap_.front().weight;
-    while (!heap_.empty() && heap_.front().weight == weight_) {
-      const std::uint32_t index = heap_.front().index;
-      std::pop_heap(heap_.begin(), heap_.end(), comesLater);
-      heap_.pop_back();
-      open(index);
-    }
+    openWaiting();
   }
   return !queue_.empty();
 }
 
-void EvictionSearch::expand(std::uint32_t index) {
-  const State state = queue_[index];
-  for (const Vertex to : graph_.neighbours(state.vertex)) moveIntoGaps(state, index, to);
-  evictFrom(state, index);
+/// Opens what has waited for the weight whose turn it is.
+void EvictionSearch::openWaiting() {
+  if (weight_ < kLists) {
+    for (const std::uint32_t index : waiting_[weight_]) open(index);
+    waiting_[weight_].clear();
+  }
+  while (!heap_.empty() && heap_.front().weight == weight_) {
+    const std::uint32_t index = heap_.front().index;
+    std::pop_heap(heap_.begin(), heap_.end(), comesLater);
+    heap_.pop_back();
+    open(index);
+  }
 }
 
-/// All that a GapSearch leaves out.
-void EvictionSearch::evictFrom(const State& state, std::uint32_t index) {
-  arrive(state, index);
-  wait(state, index);
+/// All that is free of charge; who could be evicted from here has time until the next weight.
+void EvictionSearch::expand(std::uint32_t index) {
+  const State state = queue_[index];
+  expanded_.push_back(index);
+  for (const Vertex to : graph_.neighbours(state.vertex)) moveIntoGaps(state, index, to);
+  arrive(state);
+  if (state.robot != kNone) leaveVisit(state, index);
+}
+
+/// All that costs something, from a state that weighs one less than what is open now.
+void EvictionSearch::evictFrom(std::uint32_t index) {
+  const State state = queue_[index];
+  waitIntoVisit(state, index);
   for (const Vertex to : graph_.neighbours(state.vertex)) moveIntoVisits(state, index, to);
 }
 
 /// At the goal for good: all who come later are evicted.
-void EvictionSearch::arrive(const State& state, std::uint32_t index) {
+void EvictionSearch::arrive(const State& state) {
   if (state.vertex != query_->distances->goal()) return;
   std::uint32_t weight = weight_;
   for (const Stay& stay : query_->placed->at(state.vertex)) {
     if (stay.begin > state.time) weight += weightOf(stay);
   }
-  push({state.vertex, state.time, kForever, kArrived, queue_[index].parent}, weight);
+  push({state.vertex, state.time, kForever, kArrived, state.parent}, weight);
 }
 
-void EvictionSearch::wait(const State& state, std::uint32_t index) {
-  if (state.end == kForever || !inTime(state.vertex, state.end)) return;
-  if (gaps_.reached()(state.vertex, state.end)) return;
-  const Stay* const next = nextVisit(state.vertex, state.end);
-  if (next == nullptr || next->begin > state.end) {
-    const std::uint32_t end = next == nullptr ? kForever : next->begin;
-    push({state.vertex, state.end, end, kNone, index}, weight_);
-  } else if (!offered_(state.vertex, state.end)) {
-    offered_.mark(state.vertex, state.end, next->end);
-    push({state.vertex, state.end, next->end, next->robot, index}, weight_ + weightOf(*next));
+/// Once whom it has evicted would leave: stays alone, or goes the same way.
+void EvictionSearch::leaveVisit(const State& state, std::uint32_t index) {
+  const std::uint32_t t = state.end;
+  if (t == kForever) return;
+  const Vertex to = nextVisit(state.vertex, state.time)->next;
+  if (inTime(to, t) && !gaps_.reached()(to, t)) {
+    push({to, t, nextVisit(to, t)->end, state.robot, index}, weight_);
   }
+  if (!inTime(state.vertex, t) || query_->placed->isTaken(state.vertex, t)) return;
+  if (gaps_.reached()(state.vertex, t)) return;
+  const Stay* const next = nextVisit(state.vertex, t);
+  push({state.vertex, t, next == nullptr ? kForever : next->begin, kNone, index}, weight_);
+}
+
+void EvictionSearch::waitIntoVisit(const State& state, std::uint32_t index) {
+  const std::uint32_t t = state.end;
+  if (t == kForever || !inTime(state.vertex, t)) return;
+  if (gaps_.reached()(state.vertex, t) || offered_(state.vertex, t)) return;
+  if (!query_->placed->isTaken(state.vertex, t)) return;
+  const Stay& visit = *nextVisit(state.vertex, t);
+  offered_.mark(state.vertex, t, visit.end);
+  push({state.vertex, t, visit.end, visit.robot, index}, weight_ - 1 + weightOf(visit));
 }
 
 void EvictionSearch::moveIntoGaps(const State& state, std::uint32_t index, Vertex to) {
-  if (!inTime(to, state.time + 1)) return;
-  const std::uint32_t distance = (*query_->distances)(to);
+  const std::uint32_t distance = distanceOf(to);
+  if (distance > latest_arrival_) return;
   const std::uint32_t last = std::min(state.end, latest_arrival_ - distance);
+  if (state.time + 1 > last) return;
   const ReservationTable& placed = *query_->placed;
   ReachedSteps& reached = gaps_.reached();
   forEachNewGap(placed, reached, {state.vertex, to, state.end, state.time + 1, last},
@@ -184,49 +230,42 @@ void EvictionSearch::moveIntoGaps(const State& state, std::uint32_t index, Verte
 }
 
 void EvictionSearch::moveIntoVisits(const State& state, std::uint32_t index, Vertex to) {
-  if (!inTime(to, state.time + 1)) return;
-  const std::uint32_t distance = (*query_->distances)(to);
+  const std::uint32_t distance = distanceOf(to);
+  if (distance > latest_arrival_) return;
   const std::uint32_t last = std::min(state.end, latest_arrival_ - distance);
+  if (state.time + 1 > last) return;
   const ReservationTable& placed = *query_->placed;
-  if (last == state.end) moveAtLast(state, index, to);
+  if (last == state.end) evictOncoming(state, index, to);
   const std::uint64_t* const reached = gaps_.reached().row(to);
   const std::uint64_t* const offered = offered_.row(to);
-  std::uint32_t from = state.time + 1;  // of what is left; each visit counts once
-  const auto left_of = [&from](std::uint32_t word) {
-    if (64 * word + 63 < from) return std::uint64_t{0};
-    return 64 * word >= from ? ReachedSteps::kAllSteps : ReachedSteps::kAllSteps << (from % 64);
-  };
+  const Stay* visit = nullptr;
   forEachStep(
-      from, last,
+      state.time + 1, last,
       [&](std::uint32_t word) {
-        return placed.taken(to, word) & ~reached[word] & ~offered[word] & left_of(word);
+        const std::uint64_t taken = placed.taken(to, word) & ~reached[word];
+        return taken & ~offered[word];
       },
       [&](std::uint32_t t) {
-        const Stay& visit = *nextVisit(to, t);
-        enterVisit(state, visit, {to, t, visit.end, visit.robot, index});
-        from = visit.end;
-        return from <= last;
+        visit = visit == nullptr ? nextVisit(to, t) : visit + 1;
+        while (visit->end <= t) ++visit;
+        return enterVisit(state, *visit, {to, t, visit->end, visit->robot, index});
       });
 }
 
-/// The last step at which a robot can leave is the only one at which somebody may come towards it,
-/// and the only one at which whom it has evicted may go the same way: that is free of charge.
-void EvictionSearch::moveAtLast(const State& state, std::uint32_t index, Vertex to) {
+/// Only at the last step at which a robot can leave somebody may come towards it.
+void EvictionSearch::evictOncoming(const State& state, std::uint32_t index, Vertex to) {
   const std::uint32_t t = state.end;
-  if (gaps_.reached()(to, t)) return;
-  const Stay* const next = nextVisit(to, t);
-  if (next != nullptr && next->begin <= t) {
-    if (next->robot == state.robot) push({to, t, next->end, next->robot, index}, weight_);
-    return;
-  }
+  if (gaps_.reached()(to, t) || query_->placed->isTaken(to, t)) return;
   const Stay* const met = query_->placed->oncoming(state.vertex, to, t);
   if (met == nullptr) return;
+  const Stay* const next = nextVisit(to, t);
   const std::uint32_t end = next == nullptr ? kForever : next->begin;
-  push({to, t, end, kNone, index}, weight_ + weightOf(*met));
+  push({to, t, end, kNone, index}, weight_ - 1 + weightOf(*met));
 }
 
-void EvictionSearch::enterVisit(const State& state, const Stay& visit, const State& entered) {
-  std::uint32_t weight = weight_ + weightOf(visit);
+/// @return whether there is more to enter: nothing after the last step.
+bool EvictionSearch::enterVisit(const State& state, const Stay& visit, const State& entered) {
+  std::uint32_t weight = weight_ - 1 + weightOf(visit);
   const Stay* const met = entered.time == state.end
                               ? query_->placed->oncoming(state.vertex, entered.vertex, entered.time)
                               : nullptr;
@@ -236,6 +275,7 @@ void EvictionSearch::enterVisit(const State& state, const Stay& visit, const Sta
     offered_.mark(entered.vertex, entered.time, visit.end);
   }
   push(entered, weight);
+  return met == nullptr;
 }
 
 }  // namespace split_mapf

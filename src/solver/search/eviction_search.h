@@ -54,24 +54,34 @@ class EvictionSearch {
   void reset();
   bool pushStart();
   void leaveGaps();
-  std::uint32_t pop();
+  bool hasTurn();
+  bool isEvictionsTurn();
   bool openNextWeight();
+  void openWaiting();
   void open(std::uint32_t index);
   void expand(std::uint32_t index);
-  void evictFrom(const State& state, std::uint32_t index);
-  void arrive(const State& state, std::uint32_t index);
-  void wait(const State& state, std::uint32_t index);
+  void evictFrom(std::uint32_t index);
+  void arrive(const State& state);
+  void leaveVisit(const State& state, std::uint32_t index);
+  void waitIntoVisit(const State& state, std::uint32_t index);
   void moveIntoGaps(const State& state, std::uint32_t index, Vertex to);
   void moveIntoVisits(const State& state, std::uint32_t index, Vertex to);
-  void moveAtLast(const State& state, std::uint32_t index, Vertex to);
-  void enterVisit(const State& state, const Stay& visit, const State& entered);
+  void evictOncoming(const State& state, std::uint32_t index, Vertex to);
+  bool enterVisit(const State& state, const Stay& visit, const State& entered);
   void push(const State& state, std::uint32_t weight);
   bool inTime(Vertex v, std::uint32_t t) const;
   const Stay* nextVisit(Vertex v, std::uint32_t t) const;
+  std::uint32_t distanceOf(Vertex v) const {
+    return narrow_ != nullptr ? narrow_[v] : (*query_->distances)(v);
+  }
+  std::size_t estimateOf(std::uint32_t index) const {
+    return queue_[index].time + std::size_t{distanceOf(queue_[index].vertex)};
+  }
   std::uint32_t weightOf(const Stay& stay) const { return (*query_->weights)[stay.robot]; }
 
   const Graph& graph_;
   const EvictionQuery* query_ = nullptr;
+  const std::uint16_t* narrow_ = nullptr;  // the distances, where they have this form
   GapSearch gaps_;
   ReachedSteps offered_;  // of visits: somebody waits who enters them then, or did
   std::uint32_t latest_arrival_ = 0;
@@ -83,6 +93,11 @@ class EvictionSearch {
   std::uint32_t weight_ = 0;  // of what is open
   std::vector<std::vector<std::uint32_t>> waiting_;
   std::vector<Waiting> heap_;
+  // Evicting costs at least 1, so it waits for the weight above that of the state it starts from,
+  // and there for its turn over arrival: most searches end before it has come for most states.
+  std::vector<std::uint32_t> expanded_;  // states of what is open, ordered by estimate
+  std::vector<std::uint32_t> turn_;      // states of the weight below
+  std::size_t evicted_ = 0;              // of turn_, from so many
 };
 
 }  // namespace split_mapf
