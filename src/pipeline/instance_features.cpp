@@ -1,19 +1,116 @@
 #include "split_mapf/pipeline/instance_features.h"
 
 #include <algorithm>
-#include <vector>
+#include <array>
+#include <numeric>
 
 #include <boost/pending/disjoint_sets.hpp>
-
-#include "solver/search/path_table.h"
 
 namespace split_mapf {
 namespace {
 
+constexpr std::uint32_t kNobody = 0xffffffffU;
+
+/// Lets all robots walk at once, step by step, and notes who conflicts with whom.
+class SharedWalk {
+ public:
+  SharedWalk(std::uint32_t cells, const std::vector<Path>& paths)
+      : paths_(paths), order_(paths.size()), owner_(cells, kNobody) {
+    // Longest first: those that still walk come before those that are at home.
+    std::iota(order_.begin(), order_.end(), 0U);
+    std::sort(order_.begin(), order_.end(), [&paths](std::uint32_t a, std::uint32_t b) {
+      return paths[a].size() > paths[b].size();
+    });
+    for (std::uint32_t robot = 0; robot < paths.size(); ++robot) {
+      owner_[paths[robot].back()] = robot;
+    }
+    for (Crowds& crowds : crowds_) {
+      crowds.last.resize(cells);
+      crowds.before.resize(paths.size());
+    }
+  }
+
+  /// The pairs of robots that conflict, each once.
+  std::vector<std::uint64_t> findConflicts() {
+    std::size_t walking = order_.size();
+    for (std::uint32_t step = 0;; ++step) {
+      while (walking > 0 && step >= paths_[order_[walking - 1]].size()) --walking;
+      if (walking == 0) break;
+      for (std::size_t i = 0; i < walking; ++i) move(order_[i], step);
+    }
+    std::sort(pairs_.begin(), pairs_.end());
+    pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+    return std::move(pairs_);
+  }
+
+ private:
+  /// Who is in each cell at a step: a chain of robots, read only if its step is the one meant.
+  struct Crowds {
+    struct Last {
+      std::uint32_t step = 0xffffffffU;
+      std::uint32_t robot = kNobody;
+    };
+    std::vector<Last> last;
+    std::vector<std::uint32_t> before;  ///< who came into the robot's cell before it, or kNobody
+
+    std::uint32_t lastAt(Vertex v, std::uint32_t step) const {
+      return last[v].step == step ? last[v].robot : kNobody;
+    }
+  };
+
+  void move(std::uint32_t robot, std::uint32_t step) {
+    const Vertex to = paths_[robot][step];
+    const Vertex from = step > 0 ? paths_[robot][step - 1] : kNoVertex;
+    Crowds& now = crowds_[step % 2];
+    const std::uint32_t last = now.lastAt(to, step);
+    for (std::uint32_t other = last; other != kNobody; other = now.before[other]) {
+      // Those that walk together are known from the step where they met.
+      if (step == 0 || paths_[other][step - 1] != from) note(robot, other);
+    }
+    now.before[robot] = last;
+    now.last[to] = {step, robot};
+    const std::uint32_t owner = owner_[to];
+    if (owner != kNobody && paths_[owner].size() <= step) note(robot, owner);
+    if (step == 0) return;
+    const Crowds& past = crowds_[(step - 1) % 2];
+    for (std::uint32_t other = past.lastAt(to, step - 1); other != kNobody;
+         other = past.before[other]) {
+      if (step < paths_[other].size() && paths_[other][step] == from) note(robot, other);
+    }
+  }
+
+  void note(std::uint32_t a, std::uint32_t b) {
+    pairs_.push_back(std::uint64_t{std::min(a, b)} << 32U | std::max(a, b));
+  }
+
+  const std::vector<Path>& paths_;
+  std::vector<std::uint32_t> order_;
+  std::vector<std::uint32_t> owner_;  ///< whose goal a cell is
+  std::array<Crowds, 2> crowds_;      ///< of even and of odd steps
+  std::vector<std::uint64_t> pairs_;
+};
+
+std::uint32_t largestGroup(std::uint32_t robots, const std::vector<std::uint64_t>& pairs) {
+  std::vector<std::uint32_t> rank(robots, 0);
+  std::vector<std::uint32_t> parent(robots);
+  boost::disjoint_sets<std::uint32_t*, std::uint32_t*> groups(rank.data(), parent.data());
+  for (std::uint32_t robot = 0; robot < robots; ++robot) groups.make_set(robot);
+  for (const std::uint64_t pair : pairs) {
+    groups.union_set(static_cast<std::uint32_t>(pair >> 32U), static_cast<std::uint32_t>(pair));
+  }
+  std::vector<std::uint32_t> size(robots, 0);
+  for (std::uint32_t robot = 0; robot < robots; ++robot) ++size[groups.find_set(robot)];
+  return *std::max_element(size.begin(), size.end());
+}
+
+}  // namespace
+
 Path shortestPath(const Instance& instance, std::uint32_t robot) {
   const DistanceTable& distances = instance.distances(robot);
   Path path = {instance.start(robot)};
-  for (std::uint32_t left = distances(path.front()); left > 0; --left) {
+  const std::uint32_t length = distances(path.front());
+  path.reserve(length + std::size_t{1});
+  for (std::uint32_t left = length; left > 0; --left) {
     for (const Vertex v : instance.graph().neighbours(path.back())) {
       if (distances(v) + 1 != left) continue;
       path.push_back(v);
@@ -23,31 +120,25 @@ Path shortestPath(const Instance& instance, std::uint32_t robot) {
   return path;
 }
 
-}  // namespace
-
-InstanceFeatures measureFeatures(const Instance& instance) {
+InstanceFeatures measureFeatures(const Instance& instance, const std::vector<Path>& paths) {
   InstanceFeatures features;
   features.robots = instance.robots();
   features.cells = instance.graph().size();
   features.makespan_bound = makespanLowerBound(instance);
   features.sum_bound = sumOfCostsLowerBound(instance);
-  PathTable table(instance.graph().size());
-  std::vector<std::uint32_t> rank(instance.robots(), 0);
-  std::vector<std::uint32_t> parent(instance.robots());
-  boost::disjoint_sets<std::uint32_t*, std::uint32_t*> groups(rank.data(), parent.data());
-  for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) groups.make_set(robot);
-  for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {
-    const Path path = shortestPath(instance, robot);
-    for (const std::uint32_t other : robotsInTheWay(table, path)) {
-      ++features.conflicting;
-      groups.union_set(other, robot);
-    }
-    table.insert(robot, path);
-  }
-  std::vector<std::uint32_t> size(instance.robots(), 0);
-  for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) ++size[groups.find_set(robot)];
-  features.largest_group = *std::max_element(size.begin(), size.end());
+  const std::vector<std::uint64_t> pairs = SharedWalk(features.cells, paths).findConflicts();
+  features.conflicting = pairs.size();
+  features.largest_group = largestGroup(features.robots, pairs);
   return features;
+}
+
+InstanceFeatures measureFeatures(const Instance& instance) {
+  std::vector<Path> paths;
+  paths.reserve(instance.robots());
+  for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {
+    paths.push_back(shortestPath(instance, robot));
+  }
+  return measureFeatures(instance, paths);
 }
 
 }  // namespace split_mapf

@@ -104,10 +104,15 @@ void PlanRun::refineWithin(double seconds) {
 }
 
 bool PlanRun::computeDistances() {
+  const bool choosing = mustChoose();
+  if (choosing) shortest_paths_.resize(instance_.robots());
   executor_.forEach(
       instance_.robots(),
-      [this](std::uint32_t robot) {
-        if (!deadline_.expired()) instance_.distances(robot);
+      [this, choosing](std::uint32_t robot) {
+        if (deadline_.expired()) return;
+        instance_.distances(robot);
+        // Now that the table is in the cache.
+        if (choosing) shortest_paths_[robot] = shortestPath(instance_, robot);
       },
       report_.threads, deadline_);
   return !deadline_.expired();
@@ -132,11 +137,15 @@ void PlanRun::setLowerBounds() {
   log_.setLowerBound(report_.proved_lower_bound);
 }
 
+bool PlanRun::mustChoose() const {
+  return request_.solver == "auto" || request_.split.kind == SplitSpec::Kind::kAuto;
+}
+
 void PlanRun::choose() {
-  const bool open_split = request_.split.kind == SplitSpec::Kind::kAuto;
-  if (request_.solver != "auto" && !open_split) return;
+  if (!mustChoose()) return;
   log_.enterStage("choose");
-  features_ = measureFeatures(instance_);
+  features_ = measureFeatures(instance_, shortest_paths_);
+  shortest_paths_ = {};
   AutoQuestion question;
   question.features = *features_;
   question.objective = report_.objective;
@@ -152,7 +161,7 @@ void PlanRun::choose() {
         kLeastExpansions + kExpansionsAStep * features_->sum_bound;
     keepTimeForLastResort(choice.last_resort_sec);
   }
-  if (open_split) request_.split = parseSplitSpec(choice.split);
+  if (request_.split.kind == SplitSpec::Kind::kAuto) request_.split = parseSplitSpec(choice.split);
   choice_ = " (chosen: " + choice.reason + ")";
 }
 

@@ -23,11 +23,14 @@ class PlanRun {
 
  private:
   void runStages();
+  /// The distance tables and, where `auto` must choose, what it imagines of the robots' ways.
   bool computeDistances();
   /// True, with the reason in the report, when no plan exists.
   bool reportUnsolvable();
   /// @pre no robot is cut off.
   void setLowerBounds();
+  /// Whether `auto` is asked for.
+  bool mustChoose() const;
   /// Puts a solver and a split where `auto` was asked for. @pre no robot is cut off.
   void choose();
   std::optional<Decomposition> split();
@@ -59,6 +62,7 @@ class PlanRun {
   SolvabilityChecker checker_;
   const SolverRegistry& solvers_;
   PieceSolver piece_solver_;
+  std::vector<Path> shortest_paths_;          ///< of the robots, until `auto` has chosen
   std::optional<InstanceFeatures> features_;  ///< set where `auto` had to choose
   std::string solver_said_;                   ///< of the plan of an unsplit instance
   std::string choice_;                        ///< why, for people

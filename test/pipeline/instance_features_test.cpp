@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
 #include "support/ascii_grid.h"
+#include "support/small_instances.h"
 
 namespace split_mapf {
 namespace {
@@ -36,6 +41,61 @@ TEST(InstanceFeatures, RobotsWithRoomHaveNoConflicts) {
   const InstanceFeatures features = measureFeatures(instance);
   EXPECT_EQ(features.conflicting, 0U);
   EXPECT_EQ(features.largest_group, 1U);
+}
+
+Vertex positionAt(const Path& path, std::size_t step) {
+  return path[std::min(step, path.size() - 1)];
+}
+
+bool conflict(const Path& a, const Path& b) {
+  for (std::size_t step = 0; step < std::max(a.size(), b.size()); ++step) {
+    if (positionAt(a, step) == positionAt(b, step)) return true;
+    if (positionAt(a, step) == positionAt(b, step + 1) &&
+        positionAt(b, step) == positionAt(a, step + 1)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Every pair compared at every step, and groups by giving all of one the name of the other.
+void expectConflictsOfPairs(const Instance& instance, const std::vector<Path>& paths) {
+  std::uint64_t conflicting = 0;
+  std::vector<std::uint32_t> group(paths.size());
+  std::iota(group.begin(), group.end(), 0U);
+  for (std::uint32_t a = 0; a < paths.size(); ++a) {
+    for (std::uint32_t b = 0; b < a; ++b) {
+      if (!conflict(paths[a], paths[b])) continue;
+      ++conflicting;
+      std::replace(group.begin(), group.end(), std::uint32_t{group[a]}, std::uint32_t{group[b]});
+    }
+  }
+  std::ptrdiff_t largest = 0;
+  for (const std::uint32_t name : group) {
+    largest = std::max(largest, std::count(group.begin(), group.end(), name));
+  }
+  const InstanceFeatures features = measureFeatures(instance, paths);
+  EXPECT_EQ(features.conflicting, conflicting);
+  EXPECT_EQ(features.largest_group, largest);
+}
+
+TEST(InstanceFeatures, AgreeWithComparingEveryPair) {
+  std::uint64_t conflicting = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(seed);
+    const auto robots = static_cast<std::uint32_t>(1 + seed % 40);
+    const Instance instance = test::generatedInstance(12, 0.05 * (seed % 7), robots, seed);
+    std::vector<Path> paths;
+    for (std::uint32_t robot = 0; robot < robots; ++robot) {
+      paths.push_back(shortestPath(instance, robot));
+      ASSERT_EQ(paths.back().front(), instance.start(robot));
+      ASSERT_EQ(paths.back().back(), instance.goal(robot));
+      ASSERT_EQ(paths.back().size(), instance.shortestLength(robot) + 1U);
+    }
+    expectConflictsOfPairs(instance, paths);
+    conflicting += measureFeatures(instance).conflicting;
+  }
+  EXPECT_GT(conflicting, 1000U);
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "split_mapf/core/instance.h"
+#include "split_mapf/core/plan.h"
 
 namespace split_mapf {
 
@@ -17,8 +19,14 @@ struct InstanceFeatures {
   std::uint32_t largest_group = 0;   ///< robots that conflicts connect, at most
 };
 
-/// Measures an instance. @pre no robot is cut off. Cost: as the shortest paths take steps, times
-/// the visits to a cell; two stays a step in memory.
+/// The path on which a robot is imagined. @pre it is not cut off. Several threads may walk the
+/// paths of several robots. Fast while the robot's distance table is in the cache.
+Path shortestPath(const Instance& instance, std::uint32_t robot);
+
+/// Measures an instance. @pre no robot is cut off; `paths` has every robot's shortestPath(). Cost:
+/// the steps of the paths, and the robots met in them; eight bytes a conflict in memory.
+InstanceFeatures measureFeatures(const Instance& instance, const std::vector<Path>& paths);
+/// The same where the paths are not known yet.
 InstanceFeatures measureFeatures(const Instance& instance);
 
 }  // namespace split_mapf
