@@ -29,10 +29,11 @@ GapAnswer EvictionSearch::search(const EvictionQuery& query, const Deadline& dea
       continue;
     }
     const std::uint32_t index = queue_.pop();
-    if (queue_[index].robot == kArrived) {
+    if (queue_[index].towards == kArrived) {
       answer.path = queue_.pathTo(index);
       return answer;
     }
+    if (isOutdated(queue_[index])) continue;
     ++answer.expansions;
     expand(index);
   }
@@ -66,6 +67,13 @@ const Stay* EvictionSearch::nextVisit(Vertex v, std::uint32_t t) const {
   return next != stays.end() ? &*next : nullptr;
 }
 
+/// Whether it is a gap that was reached earlier, too, for no more.
+bool EvictionSearch::isOutdated(const State& state) {
+  if (state.time == 0 || !gaps_.reached()(state.vertex, state.time - 1)) return false;
+  const ReservationTable& placed = *query_->placed;
+  return !placed.isTaken(state.vertex, state.time) && !placed.isTaken(state.vertex, state.time - 1);
+}
+
 bool EvictionSearch::pushStart() {
   if ((*query_->distances)(query_->start) == DistanceTable::kUnreachable) return false;
   if (!gaps_.states().empty()) {
@@ -81,7 +89,7 @@ bool EvictionSearch::pushStart() {
   if (const Stay* const next = nextVisit(start.vertex, start.time)) {
     const bool inside = next->begin <= start.time;
     start.end = inside ? next->end : next->begin;
-    if (inside) start.robot = next->robot;
+    if (inside) start.towards = next->next;
   }
   weight_ = kNone;  // nothing is open yet
   push(start, weight);
@@ -112,7 +120,7 @@ void EvictionSearch::push(const State& state, std::uint32_t weight) {
 /// Opens a state whose weight has its turn, unless what is open reached it already.
 void EvictionSearch::open(std::uint32_t index) {
   const State& state = queue_[index];
-  if (state.robot != kArrived) {
+  if (state.towards != kArrived) {
     if (gaps_.reached()(state.vertex, state.time)) return;
     gaps_.reached().mark(state.vertex, state.time, state.end);
   }
@@ -170,7 +178,7 @@ void EvictionSearch::expand(std::uint32_t index) {
   expanded_.push_back(index);
   for (const Vertex to : graph_.neighbours(state.vertex)) moveIntoGaps(state, index, to);
   arrive(state);
-  if (state.robot != kNone) leaveVisit(state, index);
+  if (state.towards != kNone) leaveVisit(state, index);
 }
 
 /// All that costs something, from a state that weighs one less than what is open now.
@@ -193,10 +201,10 @@ void EvictionSearch::arrive(const State& state) {
 /// Once whom it has evicted would leave: stays alone, or goes the same way.
 void EvictionSearch::leaveVisit(const State& state, std::uint32_t index) {
   const std::uint32_t t = state.end;
-  if (t == kForever) return;
-  const Vertex to = nextVisit(state.vertex, state.time)->next;
+  const Vertex to = state.towards;
   if (inTime(to, t) && !gaps_.reached()(to, t)) {
-    push({to, t, nextVisit(to, t)->end, state.robot, index}, weight_);
+    const Stay& visit = *nextVisit(to, t);
+    push({to, t, visit.end, visit.next, index}, weight_);
   }
   if (!inTime(state.vertex, t) || query_->placed->isTaken(state.vertex, t)) return;
   if (gaps_.reached()(state.vertex, t)) return;
@@ -211,7 +219,7 @@ void EvictionSearch::waitIntoVisit(const State& state, std::uint32_t index) {
   if (!query_->placed->isTaken(state.vertex, t)) return;
   const Stay& visit = *nextVisit(state.vertex, t);
   offered_.mark(state.vertex, t, visit.end);
-  push({state.vertex, t, visit.end, visit.robot, index}, weight_ - 1 + weightOf(visit));
+  push({state.vertex, t, visit.end, visit.next, index}, weight_ - 1 + weightOf(visit));
 }
 
 void EvictionSearch::moveIntoGaps(const State& state, std::uint32_t index, Vertex to) {
@@ -237,26 +245,29 @@ void EvictionSearch::moveIntoVisits(const State& state, std::uint32_t index, Ver
   const ReservationTable& placed = *query_->placed;
   if (last == state.end) evictOncoming(state, index, to);
   const std::uint64_t* const reached = gaps_.reached().row(to);
-  const std::uint64_t* const offered = offered_.row(to);
+  const std::uint64_t* offered = nullptr;  // looked up only where somebody could be evicted
   const Stay* visit = nullptr;
   forEachStep(
       state.time + 1, last,
-      [&](std::uint32_t word) {
+      [&](std::uint32_t word) -> std::uint64_t {
         const std::uint64_t taken = placed.taken(to, word) & ~reached[word];
+        if (taken == 0) return 0;
+        if (offered == nullptr) offered = offered_.row(to);
         return taken & ~offered[word];
       },
       [&](std::uint32_t t) {
         visit = visit == nullptr ? nextVisit(to, t) : visit + 1;
         while (visit->end <= t) ++visit;
-        return enterVisit(state, *visit, {to, t, visit->end, visit->robot, index});
+        return enterVisit(state, *visit, {to, t, visit->end, visit->next, index});
       });
 }
 
 /// Only at the last step at which a robot can leave somebody may come towards it.
 void EvictionSearch::evictOncoming(const State& state, std::uint32_t index, Vertex to) {
   const std::uint32_t t = state.end;
-  if (gaps_.reached()(to, t) || query_->placed->isTaken(to, t)) return;
-  const Stay* const met = query_->placed->oncoming(state.vertex, to, t);
+  const ReservationTable& placed = *query_->placed;
+  if (!placed.isTaken(to, t - 1) || placed.isTaken(to, t) || gaps_.reached()(to, t)) return;
+  const Stay* const met = placed.oncoming(state.vertex, to, t);
   if (met == nullptr) return;
   const Stay* const next = nextVisit(to, t);
   const std::uint32_t end = next == nullptr ? kForever : next->begin;

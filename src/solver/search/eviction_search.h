@@ -39,9 +39,11 @@ class EvictionSearch {
 
   struct State {
     Vertex vertex;
-    std::uint32_t time;   // of the first step there
-    std::uint32_t end;    // the next visit, or the end of this one
-    std::uint32_t robot;  // whose visit it is; kNone: a gap; kArrived: stays at the goal for good
+    std::uint32_t time;  // of the first step there
+    std::uint32_t end;   // the next visit, or the end of this one
+    // Where the robot whose visit it is moves at `end`; kNone: it is a gap, or the robot does not
+    // leave; kArrived: stays at the goal for good.
+    Vertex towards;
     std::uint32_t parent;
     std::uint32_t next = kNone;  // in its bucket
   };
@@ -69,6 +71,7 @@ class EvictionSearch {
   void evictOncoming(const State& state, std::uint32_t index, Vertex to);
   bool enterVisit(const State& state, const Stay& visit, const State& entered);
   void push(const State& state, std::uint32_t weight);
+  bool isOutdated(const State& state);
   bool inTime(Vertex v, std::uint32_t t) const;
   const Stay* nextVisit(Vertex v, std::uint32_t t) const;
   std::uint32_t distanceOf(Vertex v) const {
