@@ -4,6 +4,7 @@
 
 #include "pipeline/incumbent.h"
 #include "solver/search/neighbourhood.h"
+#include "solver/search/neighbourhood_search.h"
 #include "split_mapf/core/validate.h"
 #include "split_mapf/solver/conflict_optimizer.h"
 #include "split_mapf/solver/ecbs.h"
@@ -118,22 +119,64 @@ TEST(Incumbent, RefusesWhatConflictsWithLaterChanges) {
   EXPECT_EQ(incumbent.plan().paths[2], (Path{9, 8}));
 }
 
+TEST(NeighbourhoodSearch, IsValidAfterEveryChangeAndNeverWorse) {
+  const Instance instance = crowded();
+  const Plan first = firstPlan(instance);
+  NeighbourhoodSearch search(instance, first, kForever - 1, 3);
+  std::uint64_t cost = sumOfCostsOf(first);
+  int changed = 0;
+  int kept_some_steps = 0;
+  for (int i = 0; i < 3000; ++i) {
+    bool accepted = false;
+    const std::uint64_t gain =
+        search.tryOne(Deadline(), [&](const std::vector<PathChange>& changes) {
+          accepted = i % 3 > 0;  // as others may be in the way
+          for (const PathChange& change : changes) {
+            kept_some_steps +=
+                positionAt(change.path, 1) == positionAt(search.plan().paths[change.robot], 1);
+          }
+          return accepted;
+        });
+    EXPECT_TRUE(accepted || gain == 0);
+    cost -= gain;
+    ASSERT_EQ(sumOfCostsOf(search.plan()), cost);
+    changed += accepted;
+    if (i % 10 == 0 || accepted) {
+      ASSERT_TRUE(validate(instance, search.plan()).empty()) << i;
+    }
+  }
+  EXPECT_GT(changed, 100);
+  EXPECT_GT(kept_some_steps, 100);
+  EXPECT_LT(cost, sumOfCostsOf(first));
+}
+
 TEST(NeighbourhoodPicker, TakesADelayedRobotAndEachRobotOnce) {
   const Instance instance = crowded();
   const Plan plan = firstPlan(instance);
   PathTable table(instance.graph().size());
   for (std::uint32_t i = 0; i < instance.robots(); ++i) table.insert(i, plan.paths[i]);
   NeighbourhoodPicker picker(instance, 1);
-  std::vector<std::uint32_t> robots;
+  Neighbourhood picked;
   std::size_t largest = 0;
   for (int i = 0; i < 500; ++i) {
-    picker.pick(plan, table, robots);
+    picker.pick(plan, table, picked);
+    std::vector<std::uint32_t> robots = picked.robots;
     largest = std::max(largest, robots.size());
     std::uint64_t delay = 0;
     for (const std::uint32_t robot : robots) {
       delay += plan.paths[robot].size() - 1 - instance.shortestLength(robot);
     }
     EXPECT_GT(delay, 0U);
+    if (!picked.sideways) {
+      const std::uint32_t robot = picked.robots.front();
+      EXPECT_GT(plan.paths[robot].size() - 1, instance.shortestLength(robot)) << "it may gain";
+    }
+    for (const std::uint32_t robot : robots) {
+      const Path& path = plan.paths[robot];
+      const std::uint32_t kept = picked.keptUntil(path);
+      ASSERT_LT(kept, path.size());
+      EXPECT_TRUE(kept == 0 || path[kept] != path[kept - 1]);
+    }
     std::sort(robots.begin(), robots.end());
     EXPECT_EQ(std::adjacent_find(robots.begin(), robots.end()), robots.end());
     picker.reward(i % 7 == 0 ? 1 : 0, 300);

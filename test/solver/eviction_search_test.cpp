@@ -113,8 +113,8 @@ std::uint32_t holdWeight(const Case& c, std::uint32_t arrival) {
 
 using Cost = std::pair<std::uint32_t, std::uint32_t>;  // weight, arrival
 
-/// The least cost by plain search over all (vertex, step) pairs.
-std::optional<Cost> leastCost(const Case& c, bool may_evict) {
+/// The least cost by plain search over all (vertex, step) pairs from step `first` on.
+std::optional<Cost> leastCost(const Case& c, bool may_evict, std::uint32_t first = 0) {
   std::map<Vertex, std::uint32_t> now;
   std::optional<Cost> best;
   const auto arrive = [&](std::uint32_t weight, std::uint32_t t) {
@@ -122,10 +122,10 @@ std::optional<Cost> leastCost(const Case& c, bool may_evict) {
     if (!may_evict && cost.first > 0) return;
     if (!best || cost < *best) best = cost;
   };
-  const std::uint32_t at_start = occupant(c, c.start, 0);
+  const std::uint32_t at_start = occupant(c, c.start, first);
   if (at_start != kNobody && !may_evict) return best;
   now[c.start] = at_start == kNobody ? 0 : c.weights[at_start];
-  for (std::uint32_t t = 0; t <= c.latest_arrival; ++t) {
+  for (std::uint32_t t = first; t <= c.latest_arrival; ++t) {
     if (now.count(c.goal) > 0 && t >= c.departure) arrive(now[c.goal], t);
     std::map<Vertex, std::uint32_t> next;
     const auto reach = [&](Vertex v, std::uint32_t weight) {
@@ -194,6 +194,46 @@ INSTANTIATE_TEST_SUITE_P(EvictionSearch, RandomCases, ::testing::Bool(),
                          [](const ::testing::TestParamInfo<bool>& run) {
                            return run.param ? "MayEvict" : "MayNotEvict";
                          });
+
+TEST(GapSearch, GoesOnFromWhereARobotIsUnderWay) {
+  std::uint32_t found = 0;
+  for (std::uint64_t seed = 0; seed < 4000; ++seed) {
+    Case c = randomCase(seed);
+    if (c.placed.empty()) continue;
+    ReservationTable table(c.grid->size());
+    for (std::uint32_t i = 0; i < c.placed.size(); ++i) table.insert(i, c.placed[i]);
+    const auto robot = static_cast<std::uint32_t>(c.placed.size() - 1);
+    const Path before = c.placed.back();
+    c.placed.pop_back();
+    RandomEngine engine(seed);
+    const auto kept =
+        beginOfStay(before, static_cast<std::uint32_t>(drawBelow(engine, before.size())));
+    table.removeTail(robot, before, kept);
+    c.start = before[kept];
+    c.departure = kept;
+    c.latest_arrival += kept;
+    const DistanceTable distances(c.grid->graph(), c.goal);
+    GapQuery query;
+    query.start = c.start;
+    query.distances = &distances;
+    query.placed = &table;
+    query.departure = kept;
+    query.under_way = true;
+    query.latest_arrival = c.latest_arrival;
+    const Path path = GapSearch(c.grid->graph()).search(query, Deadline()).path;
+    const std::optional<Cost> best = leastCost(c, false, kept);
+    ASSERT_EQ(!path.empty(), best.has_value()) << "seed " << seed;
+    if (!best) continue;
+    ++found;
+    EXPECT_EQ(path.size() - 1, best->second) << "seed " << seed;
+    for (std::uint32_t t = kept; t < path.size(); ++t) {
+      EXPECT_EQ(occupant(c, path[t], t), kNobody) << "seed " << seed;
+      const std::uint32_t weight = t > kept ? stepWeight(c, path[t - 1], path[t], t) : 0;
+      EXPECT_EQ(weight, 0U) << "seed " << seed;
+    }
+  }
+  EXPECT_GT(found, 1000U);
+}
 
 TEST(EvictionSearch, OneSearchServesManyQuestions) {
   const Case c = randomCase(7);

@@ -63,6 +63,52 @@ TEST(ReservationTable, BitsSayWhoIsWhereWhateverComesAndGoes) {
   }
 }
 
+void expectSameStays(const ReservationTable& a, const ReservationTable& b) {
+  for (Vertex v = 0; v < kVertices; ++v) {
+    ASSERT_EQ(a.at(v).size(), b.at(v).size()) << "vertex " << v;
+    for (std::size_t i = 0; i < a.at(v).size(); ++i) {
+      EXPECT_EQ(a.at(v)[i].begin, b.at(v)[i].begin);
+      EXPECT_EQ(a.at(v)[i].end, b.at(v)[i].end);
+      EXPECT_EQ(a.at(v)[i].robot, b.at(v)[i].robot);
+      EXPECT_EQ(a.at(v)[i].next, b.at(v)[i].next);
+    }
+  }
+}
+
+TEST(ReservationTable, TailsComeAndGo) {
+  const Path parked = {3, 2};
+  Path before(70, 10);  // a visit of 70 steps, then on
+  for (Vertex v = 11; v < 20; ++v) before.push_back(v);
+  Path after(before.begin(), before.begin() + 72);  // until its second step on the way
+  after.resize(140, 11);
+  for (const Vertex v : {12U, 22U}) after.push_back(v);
+  for (const std::uint32_t kept : {0U, 70U, 71U}) {
+    SCOPED_TRACE(kept);
+    ReservationTable table(kVertices);
+    table.insert(0, parked);
+    table.insert(1, before);
+    table.removeTail(1, before, kept);
+    for (Vertex v = 0; v < kVertices; ++v) {
+      for (std::uint32_t t = 0; t < kSteps; ++t) {
+        const bool there = t <= kept && before[t] == v;
+        ASSERT_EQ(table.isTaken(v, t), there || positionAt(parked, t) == v);
+      }
+    }
+    const Stay& last = table.at(before[kept]).back();
+    EXPECT_EQ(last.end, kept + 1) << "it is there for one step";
+    EXPECT_EQ(last.next, kNoVertex);
+    table.insertTail(1, after, kept);
+    expectBits(table, {parked, after});
+    table.removeTail(1, after, kept);
+    table.insertTail(1, before, kept);
+    expectBits(table, {parked, before});
+    ReservationTable fresh(kVertices);
+    fresh.insert(0, parked);
+    fresh.insert(1, before);
+    expectSameStays(table, fresh);
+  }
+}
+
 TEST(ReservationTable, ALongPathKeepsWhoIsParkedParked) {
   ReservationTable table(kVertices);
   const Path parked = {3, 2};

@@ -13,8 +13,10 @@ GapSearch::GapSearch(const Graph& graph) : graph_(graph), reached_(graph.size())
 
 inline void GapSearch::push(std::uint32_t parent, Vertex v, std::uint32_t time,
                             std::uint32_t distance) {
+  // The step at which it is under way is its own.
+  const std::uint32_t own = parent == kNoState && query_->under_way ? 1 : 0;
   const std::uint32_t leave_by =
-      reached_.markGap(*query_->placed, v, time, latest_arrival_ - distance + 1);
+      reached_.markGap(*query_->placed, v, time + own, latest_arrival_ - distance + 1);
   // Not max(estimate, earliest_hold_): among equals the order in time would be lost, and gaps be
   // reached earlier again and again.
   const std::uint32_t estimate = time + distance;
@@ -41,6 +43,11 @@ void GapSearch::expand(std::uint32_t index) {
   for (const Vertex to : graph_.neighbours(state.vertex)) move(state, index, to);
 }
 
+bool GapSearch::isStartFree() const {
+  const std::vector<Stay>& at_start = query_->placed->at(query_->start);
+  return query_->under_way || at_start.empty() || at_start.front().begin > query_->departure;
+}
+
 bool GapSearch::begin() {
   queue_.clear();
   arrived_ = kNoState;
@@ -52,12 +59,14 @@ bool GapSearch::begin() {
   reached_.reset(latest_arrival_ + 1);
   const std::vector<Stay>& at_goal = query_->placed->at(query_->distances->goal());
   earliest_hold_ = at_goal.empty() ? 0 : at_goal.back().end;
+  // Its own visit keeps nobody from staying on.
+  const bool at_home = query_->under_way && query_->start == query_->distances->goal();
+  if (at_home && earliest_hold_ == query_->departure + 1) --earliest_hold_;
   const std::uint32_t distance = (*query_->distances)(query_->start);
   if (distance == DistanceTable::kUnreachable || earliest_hold_ == kForever) return false;
   first_estimate_ = estimate_ = query_->departure + distance;
   if (std::max(first_estimate_, earliest_hold_) > query_->latest_arrival) return false;
-  const std::vector<Stay>& at_start = query_->placed->at(query_->start);
-  if (!at_start.empty() && at_start.front().begin <= query_->departure) return false;
+  if (!isStartFree()) return false;
   push(kNoState, query_->start, query_->departure, distance);
   return true;
 }

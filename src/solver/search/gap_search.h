@@ -16,9 +16,12 @@ namespace split_mapf {
 /// One robot's question among robots that have paths without conflicts.
 struct GapQuery {
   Vertex start = kNoVertex;
-  const DistanceTable* distances = nullptr;     ///< to the goal
-  const ReservationTable* placed = nullptr;     ///< @pre without the robot that asks
-  std::uint32_t departure = 0;                  ///< stays at its start until this step
+  const DistanceTable* distances = nullptr;  ///< to the goal
+  const ReservationTable* placed = nullptr;  ///< @pre without the robot that asks, see under_way
+  std::uint32_t departure = 0;               ///< stays at its start until this step
+  /// Whether `placed` knows that the robot is at its start at step `departure`, and nothing else of
+  /// what it does then or later: it is on its way already, and this is where it may change it.
+  bool under_way = false;
   std::uint32_t latest_arrival = kForever - 1;  ///< longest path allowed [steps]
 };
 
@@ -65,6 +68,7 @@ class GapSearch {
 
  private:
   bool begin();
+  bool isStartFree() const;
   void expand(std::uint32_t index);
   void move(const State& state, std::uint32_t index, Vertex to);
   void push(std::uint32_t parent, Vertex v, std::uint32_t time, std::uint32_t distance);

@@ -4,6 +4,11 @@
 
 namespace split_mapf {
 
+std::uint32_t Neighbourhood::keptUntil(const Path& path) const {
+  const std::uint32_t t = std::min(event, static_cast<std::uint32_t>(path.size() - 1));
+  return t > reach ? beginOfStay(path, t - reach) : 0;
+}
+
 NeighbourhoodPicker::NeighbourhoodPicker(const Instance& instance, std::uint64_t seed)
     : instance_(instance), engine_(seed), marks_(instance.robots(), 0) {}
 
@@ -11,6 +16,8 @@ void NeighbourhoodPicker::reward(std::uint64_t gain, std::uint64_t expansions) {
   const double rate = gainRate(gain, expansions);
   ways_.reward(rate);
   sizes_.reward(rate);
+  reaches_.reward(rate);
+  if (expansions > 0) in_vain_ = gain > 0 ? 0 : in_vain_ + 1;
 }
 
 void NeighbourhoodPicker::add(std::uint32_t robot, std::vector<std::uint32_t>& robots) {
@@ -41,6 +48,23 @@ std::uint32_t NeighbourhoodPicker::drawDelayed(const Plan& plan) {
   return best;
 }
 
+/// A step that brings the robot no nearer to its goal; any step where there is none.
+std::uint32_t NeighbourhoodPicker::drawLostStep(const Path& path, const DistanceTable& distances) {
+  const auto first = static_cast<std::uint32_t>(drawBelow(engine_, path.size()));
+  const auto size = static_cast<std::uint32_t>(path.size());
+  for (std::uint32_t i = 0; i < size; ++i) {
+    const std::uint32_t t = (first + i) % size;
+    if (t > 0 && distances(path[t]) >= distances(path[t - 1])) return t;
+  }
+  return first;
+}
+
+std::uint32_t NeighbourhoodPicker::drawStep(const Path& path, const Neighbourhood& picked) {
+  const std::uint32_t kept = picked.keptUntil(path);
+  const auto last = std::min(picked.event, static_cast<std::uint32_t>(path.size() - 1));
+  return kept + static_cast<std::uint32_t>(drawBelow(engine_, last - kept + 1));
+}
+
 void NeighbourhoodPicker::addOccupants(const PathTable& table, Vertex v, std::uint32_t from,
                                        std::uint32_t to, std::size_t size,
                                        std::vector<std::uint32_t>& robots) {
@@ -52,15 +76,15 @@ void NeighbourhoodPicker::addOccupants(const PathTable& table, Vertex v, std::ui
 
 void NeighbourhoodPicker::walkInTheWay(const Plan& plan, const PathTable& table,
                                        std::uint32_t robot, std::size_t size,
-                                       std::vector<std::uint32_t>& robots) {
+                                       Neighbourhood& picked) {
   const Path& path = plan.paths[robot];
   const DistanceTable& distances = instance_.distances(robot);
   const auto cost = static_cast<std::uint32_t>(path.size() - 1);
   constexpr int kWalks = 10;
-  for (int walk = 0; walk < kWalks && robots.size() < size; ++walk) {
-    auto t = static_cast<std::uint32_t>(drawBelow(engine_, path.size()));
+  for (int walk = 0; walk < kWalks && picked.robots.size() < size; ++walk) {
+    std::uint32_t t = drawStep(path, picked);
     Vertex at = path[t];
-    while (robots.size() < size) {
+    while (picked.robots.size() < size) {
       // Any step from which the robot could still arrive earlier than it does.
       Vertex next = kNoVertex;
       std::uint64_t choices = 0;
@@ -70,7 +94,7 @@ void NeighbourhoodPicker::walkInTheWay(const Plan& plan, const PathTable& table,
       for (const Vertex v : instance_.graph().neighbours(at)) consider(v);
       consider(at);
       if (next == kNoVertex) break;
-      addOccupants(table, next, t, t + 1, size, robots);
+      addOccupants(table, next, t, t + 1, size, picked.robots);
       at = next;
       ++t;
     }
@@ -79,34 +103,35 @@ void NeighbourhoodPicker::walkInTheWay(const Plan& plan, const PathTable& table,
 
 void NeighbourhoodPicker::takeAroundArrival(const Plan& plan, const PathTable& table,
                                             std::uint32_t robot, std::size_t size,
-                                            std::vector<std::uint32_t>& robots) {
+                                            Neighbourhood& picked) {
   const Path& path = plan.paths[robot];
-  const auto cost = static_cast<std::uint32_t>(path.size() - 1);
-  // Who passes its goal when it could be there.
-  addOccupants(table, path.back(), instance_.shortestLength(robot), cost, size, robots);
-  // Who stands on a shortest way to it.
   const DistanceTable& distances = instance_.distances(robot);
-  Vertex at = instance_.start(robot);
-  for (std::uint32_t t = 1; distances(at) > 0 && robots.size() < size; ++t) {
+  const auto cost = static_cast<std::uint32_t>(path.size() - 1);
+  std::uint32_t t = picked.keptUntil(path);
+  Vertex at = path[t];
+  // Who passes its goal when it could be there.
+  addOccupants(table, path.back(), t + distances(at), cost, size, picked.robots);
+  // Who stands on a shortest way to it.
+  for (++t; distances(at) > 0 && picked.robots.size() < size; ++t) {
     Vertex next = kNoVertex;
     std::uint64_t choices = 0;
     for (const Vertex v : instance_.graph().neighbours(at)) {
       if (distances(v) < distances(at) && drawBelow(engine_, ++choices) == 0) next = v;
     }
     at = next;
-    addOccupants(table, at, t > 0 ? t - 1 : 0, t + 1, size, robots);
+    addOccupants(table, at, t - 1, t + 1, size, picked.robots);
   }
 }
 
 void NeighbourhoodPicker::takeCrowd(const Plan& plan, const PathTable& table, std::uint32_t robot,
-                                    std::size_t size, std::vector<std::uint32_t>& robots) {
+                                    std::size_t size, Neighbourhood& picked) {
   const Path& path = plan.paths[robot];
-  const auto t = static_cast<std::uint32_t>(drawBelow(engine_, path.size()));
+  const std::uint32_t t = drawStep(path, picked);
   std::vector<Vertex> queue = {path[t]};
   constexpr std::size_t kMostCells = 60;
   constexpr std::uint32_t kSpan = 3;
-  for (std::size_t i = 0; i < queue.size() && robots.size() < size; ++i) {
-    addOccupants(table, queue[i], t > kSpan ? t - kSpan : 0, t + kSpan, size, robots);
+  for (std::size_t i = 0; i < queue.size() && picked.robots.size() < size; ++i) {
+    addOccupants(table, queue[i], t > kSpan ? t - kSpan : 0, t + kSpan, size, picked.robots);
     for (const Vertex v : instance_.graph().neighbours(queue[i])) {
       if (queue.size() >= kMostCells) break;
       if (std::find(queue.begin(), queue.end(), v) == queue.end()) queue.push_back(v);
@@ -114,23 +139,28 @@ void NeighbourhoodPicker::takeCrowd(const Plan& plan, const PathTable& table, st
   }
 }
 
-void NeighbourhoodPicker::pick(const Plan& plan, const PathTable& table,
-                               std::vector<std::uint32_t>& robots) {
+void NeighbourhoodPicker::pick(const Plan& plan, const PathTable& table, Neighbourhood& picked) {
+  std::vector<std::uint32_t>& robots = picked.robots;
   robots.clear();
   ++pick_number_;
   const std::size_t way = ways_.draw(engine_);
   const std::size_t size = std::min<std::size_t>(kSizes[sizes_.draw(engine_)], instance_.robots());
   const std::uint32_t robot = drawDelayed(plan);
+  picked.reach = kReaches[reaches_.draw(engine_)];
+  picked.event = drawLostStep(plan.paths[robot], instance_.distances(robot));
+  picked.sideways = drawBelow(engine_, in_vain_ + instance_.robots()) < in_vain_;
   add(robot, robots);
-  if (way == kInTheWay) walkInTheWay(plan, table, robot, size, robots);
-  if (way == kAroundArrival) takeAroundArrival(plan, table, robot, size, robots);
-  if (way == kCrowd) takeCrowd(plan, table, robot, size, robots);
+  if (way == kInTheWay) walkInTheWay(plan, table, robot, size, picked);
+  if (way == kAroundArrival) takeAroundArrival(plan, table, robot, size, picked);
+  if (way == kCrowd) takeCrowd(plan, table, robot, size, picked);
   if (way == kRandom) {
     while (robots.size() < size) {
       add(static_cast<std::uint32_t>(drawBelow(engine_, instance_.robots())), robots);
     }
   }
   shuffle(robots, engine_);
+  if (picked.sideways) return;
+  std::swap(robots.front(), *std::find(robots.begin(), robots.end(), robot));
 }
 
 }  // namespace split_mapf

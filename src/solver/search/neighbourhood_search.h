@@ -18,8 +18,9 @@ struct PathChange {
   Path path;
 };
 
-/// Large-neighbourhood search for sum of costs on a valid plan: takes some robots out and plans
-/// them anew, one after another in a random order, within what they cost together before. A result
+/// Large-neighbourhood search for sum of costs on a valid plan: takes some robots out, from some
+/// step on, and plans them anew, one after another in a random order, within what they cost
+/// together before. A result
 /// of equal cost counts too, as it leads across plateaus. The plan is valid after every step and
 /// its cost never grows. Deterministic but for the deadline. Not thread-safe.
 /// Source: Li et al., IJCAI 2021; deviations, see NeighbourhoodPicker.
@@ -42,7 +43,15 @@ class NeighbourhoodSearch {
   std::uint64_t expansions() const { return expansions_; }
 
  private:
+  /// A robot of the neighbourhood and the part of its path that it keeps.
+  struct Member {
+    std::uint32_t robot = 0;
+    std::uint32_t kept = 0;   // until this step
+    std::uint32_t least = 0;  // arrival, if nobody were in its way
+  };
+  void pick();
   bool replan(std::uint64_t budget, const Deadline& deadline);
+  Path search(const Member& member, std::uint32_t latest_arrival, const Deadline& deadline);
 
   const Instance& instance_;
   std::uint32_t latest_arrival_;
@@ -51,8 +60,9 @@ class NeighbourhoodSearch {
   Plan plan_;
   ReservationTable table_;
   std::uint64_t expansions_ = 0;
-  std::vector<std::uint32_t> robots_;  // of the current neighbourhood, as are
-  std::vector<PathChange> changes_;    // these
+  Neighbourhood picked_;
+  std::vector<Member> members_;      // of the current neighbourhood, as are
+  std::vector<PathChange> changes_;  // these
 };
 
 }  // namespace split_mapf

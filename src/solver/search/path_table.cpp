@@ -11,22 +11,55 @@ bool beginsBefore(const Stay& stay, std::uint32_t step) { return stay.begin < st
 
 }  // namespace
 
+void PathTable::insert(std::uint32_t robot, Vertex v, std::uint32_t begin, std::uint32_t end,
+                       Vertex next) {
+  std::vector<Stay>& stays = stays_[v];
+  auto place = stays.end();
+  while (place != stays.begin() && begin < (place - 1)->begin) --place;
+  stays.insert(place, {begin, end, robot, next});
+  timelines_[v].clear();
+}
+
+/// The robot's visit to `v` that begins at `begin`.
+std::vector<Stay>::iterator PathTable::find(std::uint32_t robot, Vertex v, std::uint32_t begin) {
+  std::vector<Stay>& stays = stays_[v];
+  auto place = std::lower_bound(stays.begin(), stays.end(), begin, beginsBefore);
+  while (place->robot != robot) ++place;
+  return place;
+}
+
 void PathTable::insert(std::uint32_t robot, const Path& path) {
   forEachStay(path, [&](Vertex v, std::uint32_t begin, std::uint32_t end, Vertex next) {
-    std::vector<Stay>& stays = stays_[v];
-    auto place = stays.end();
-    while (place != stays.begin() && begin < (place - 1)->begin) --place;
-    stays.insert(place, {begin, end, robot, next});
-    timelines_[v].clear();
+    insert(robot, v, begin, end, next);
   });
 }
 
 void PathTable::remove(std::uint32_t robot, const Path& path) {
   forEachStay(path, [&](Vertex v, std::uint32_t begin, std::uint32_t, Vertex) {
-    std::vector<Stay>& stays = stays_[v];
-    auto place = std::lower_bound(stays.begin(), stays.end(), begin, beginsBefore);
-    while (place->robot != robot) ++place;
-    stays.erase(place);
+    stays_[v].erase(find(robot, v, begin));
+    timelines_[v].clear();
+  });
+}
+
+void PathTable::removeTail(std::uint32_t robot, const Path& path, std::uint32_t from) {
+  forEachStay(path, from, [&](Vertex v, std::uint32_t begin, std::uint32_t, Vertex) {
+    const auto stay = find(robot, v, begin);
+    if (begin == from) {
+      stay->end = from + 1;
+      stay->next = kNoVertex;
+    } else {
+      stays_[v].erase(stay);
+    }
+    timelines_[v].clear();
+  });
+}
+
+void PathTable::insertTail(std::uint32_t robot, const Path& path, std::uint32_t from) {
+  forEachStay(path, from, [&](Vertex v, std::uint32_t begin, std::uint32_t end, Vertex next) {
+    if (begin > from) return insert(robot, v, begin, end, next);
+    const auto stay = find(robot, v, begin);
+    stay->end = end;
+    stay->next = next;
     timelines_[v].clear();
   });
 }

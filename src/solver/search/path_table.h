@@ -20,6 +20,11 @@ class PathTable {
   void insert(std::uint32_t robot, const Path& path);
   /// @pre `path` is what was inserted for the robot.
   void remove(std::uint32_t robot, const Path& path);
+  /// Removes where the robot is after step `from`: its visit that begins then lasts for this step
+  /// only, and leads nowhere. @pre `path` is what was inserted, and a visit begins at `from`.
+  void removeTail(std::uint32_t robot, const Path& path, std::uint32_t from);
+  /// Undoes removeTail(), with a path that is the same up to `from` and leads on from there.
+  void insertTail(std::uint32_t robot, const Path& path, std::uint32_t from);
 
   const std::vector<Stay>& at(Vertex v) const { return stays_[v]; }
   /// The timeline that all visits at `v` make. Kept until a path through `v` comes or goes: a
@@ -30,6 +35,9 @@ class PathTable {
   std::uint32_t countSwaps(std::uint32_t robot, Vertex from, Vertex to, std::uint32_t t) const;
 
  private:
+  std::vector<Stay>::iterator find(std::uint32_t robot, Vertex v, std::uint32_t begin);
+  void insert(std::uint32_t robot, Vertex v, std::uint32_t begin, std::uint32_t end, Vertex next);
+
   std::vector<std::vector<Stay>> stays_;
   mutable std::vector<Timeline> timelines_;  // empty: to be built
   mutable TimelineBuilder builder_;

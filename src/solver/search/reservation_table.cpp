@@ -9,18 +9,29 @@ ReservationTable::ReservationTable(std::uint32_t vertices) : paths_(vertices), b
 void ReservationTable::insert(std::uint32_t robot, const Path& path) {
   coverSteps(path.size());
   paths_.insert(robot, path);
-  flip(path);
+  flip(path, 0);
 }
 
 void ReservationTable::remove(std::uint32_t robot, const Path& path) {
   paths_.remove(robot, path);
-  flip(path);
+  flip(path, 0);
 }
 
-/// A robot alone where it is: its bits are all unset or all set.
-void ReservationTable::flip(const Path& path) {
+void ReservationTable::removeTail(std::uint32_t robot, const Path& path, std::uint32_t from) {
+  paths_.removeTail(robot, path, from);
+  flip(path, from + 1);
+}
+
+void ReservationTable::insertTail(std::uint32_t robot, const Path& path, std::uint32_t from) {
+  coverSteps(path.size());
+  paths_.insertTail(robot, path, from);
+  flip(path, from + 1);
+}
+
+/// From step `from` on; a robot is alone where it is, so its bits are all unset or all set.
+void ReservationTable::flip(const Path& path, std::uint32_t from) {
   const auto size = static_cast<std::uint32_t>(path.size());
-  for (std::uint32_t t = 0; t < size; ++t) {
+  for (std::uint32_t t = from; t < size; ++t) {
     bits_[std::size_t{path[t]} * words_ + t / 64] ^= std::uint64_t{1} << (t % 64);
   }
   // At its goal for good.

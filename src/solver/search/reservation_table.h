@@ -21,6 +21,9 @@ class ReservationTable {
   void insert(std::uint32_t robot, const Path& path);
   /// @pre `path` is what was inserted for the robot.
   void remove(std::uint32_t robot, const Path& path);
+  /// As PathTable's: at step `from` the robot stays where it is, what comes later is removed.
+  void removeTail(std::uint32_t robot, const Path& path, std::uint32_t from);
+  void insertTail(std::uint32_t robot, const Path& path, std::uint32_t from);
 
   const PathTable& paths() const { return paths_; }
   const std::vector<Stay>& at(Vertex v) const { return paths_.at(v); }
@@ -41,7 +44,7 @@ class ReservationTable {
   // After the last step of the bits nothing changes any more.
   static std::uint64_t everAfter(std::uint64_t last_word) { return 0 - (last_word >> 63U); }
   void coverSteps(std::size_t steps);
-  void flip(const Path& path);
+  void flip(const Path& path, std::uint32_t from);
 
   PathTable paths_;
   std::uint32_t words_ = 1;  // of a vertex

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "split_mapf/core/plan.h"
@@ -17,11 +18,12 @@ struct Stay {
   Vertex next = kNoVertex;  ///< where the robot is at step `end`; kNoVertex after the last visit
 };
 
-/// Calls visit(vertex, begin, end, next) for each unbroken visit of a path, in order.
+/// Calls visit(vertex, begin, end, next) for each unbroken visit of a path that begins at step
+/// `from` or later, in order. @pre a visit begins at `from`, or none begins later.
 template <typename Visit>
-void forEachStay(const Path& path, Visit visit) {
+void forEachStay(const Path& path, std::uint32_t from, Visit visit) {
   const auto size = static_cast<std::uint32_t>(path.size());
-  for (std::uint32_t begin = 0; begin < size;) {
+  for (std::uint32_t begin = from; begin < size;) {
     std::uint32_t end = begin + 1;
     while (end < size && path[end] == path[begin]) ++end;
     if (end == size) {
@@ -31,6 +33,19 @@ void forEachStay(const Path& path, Visit visit) {
     }
     begin = end;
   }
+}
+
+/// For each unbroken visit of the path.
+template <typename Visit>
+void forEachStay(const Path& path, Visit visit) {
+  forEachStay(path, 0, visit);
+}
+
+/// The step at which the visit that lasts at step `t` begins. @pre the path is not empty.
+inline std::uint32_t beginOfStay(const Path& path, std::uint32_t t) {
+  t = std::min(t, static_cast<std::uint32_t>(path.size() - 1));
+  while (t > 0 && path[t - 1] == path[t]) --t;
+  return t;
 }
 
 }  // namespace split_mapf
