@@ -43,12 +43,9 @@ TEST(InstanceFeatures, RobotsWithRoomHaveNoConflicts) {
   EXPECT_EQ(features.largest_group, 1U);
 }
 
-Vertex positionAt(const Path& path, std::size_t step) {
-  return path[std::min(step, path.size() - 1)];
-}
-
 bool conflict(const Path& a, const Path& b) {
-  for (std::size_t step = 0; step < std::max(a.size(), b.size()); ++step) {
+  const auto steps = static_cast<std::uint32_t>(std::max(a.size(), b.size()));
+  for (std::uint32_t step = 0; step < steps; ++step) {
     if (positionAt(a, step) == positionAt(b, step)) return true;
     if (positionAt(a, step) == positionAt(b, step + 1) &&
         positionAt(b, step) == positionAt(a, step + 1)) {
