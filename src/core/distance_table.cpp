@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "core/guided_search.h"
+
 namespace split_mapf {
 
 DistanceTable::DistanceTable(const Graph& graph, Vertex goal, DistanceExtent extent) : goal_(goal) {
@@ -13,11 +15,17 @@ DistanceTable::DistanceTable(const Graph& graph, Vertex goal, DistanceExtent ext
     searchAll(graph);
     return;
   }
+  startOnDemand(graph);
+  queue_.push_back(goal);
+}
+
+DistanceTable::~DistanceTable() = default;
+
+void DistanceTable::startOnDemand(const Graph& graph) {
   graph_ = &graph;
   narrow_.assign(kPageSize, kNarrowUnknown);
   page_of_.assign((graph.size() >> kPageBits) + 1, 0);
-  settle(goal, 0);
-  queue_.push_back(goal);
+  settle(goal_, 0);
 }
 
 void DistanceTable::searchAll(const Graph& graph) {
@@ -79,14 +87,13 @@ void DistanceTable::searchWide(const Graph& graph, std::vector<Vertex>& queue, s
 }
 
 std::uint32_t DistanceTable::search(Vertex v) const {
+  if (guided_) return searchGuided(v);
   while (head_ < queue_.size()) {
     const Vertex from = queue_[head_++];
     const std::uint32_t next = (wide_.empty() ? narrow_[placeOf(from)] : wide_[from]) + 1U;
     bool met = false;
     for (const Vertex u : graph_->neighbours(from)) {
-      const bool known =
-          wide_.empty() ? narrow_[placeOf(u)] != kNarrowUnknown : wide_[u] != kUnreachable;
-      if (known) continue;
+      if (isKnown(u)) continue;
       settle(u, next);
       queue_.push_back(u);
       met = met || u == v;
@@ -126,11 +133,25 @@ DistanceTables::DistanceTables(const Graph& graph, const std::vector<Vertex>& go
                                DistanceExtent extent)
     : graph_(&graph), goals_(goals), extent_(extent), slots_(goals.size()) {}
 
+DistanceTables::DistanceTables(const Grid& grid, const std::vector<Vertex>& starts,
+                               const std::vector<Vertex>& goals,
+                               std::shared_ptr<const DistanceTables> known)
+    : DistanceTables(grid.graph(), goals, DistanceExtent::kOnDemand) {
+  grid_ = &grid;
+  starts_ = starts;
+  known_ = std::move(known);
+}
+
+std::shared_ptr<const DistanceTable> DistanceTables::make(std::uint32_t i) const {
+  if (grid_ == nullptr) return std::make_shared<const DistanceTable>(*graph_, goals_[i], extent_);
+  return std::make_shared<const DistanceTable>(goals_[i],
+                                               DistanceGuide{grid_, starts_[i], known_->share(i)});
+}
+
 const DistanceTable& DistanceTables::operator[](std::uint32_t i) const {
   Slot& slot = slots_[i];
   std::call_once(slot.once, [&] {
-    if (!slot.table)
-      slot.table = std::make_shared<const DistanceTable>(*graph_, goals_[i], extent_);
+    if (!slot.table) slot.table = make(i);
   });
   return *slot.table;
 }

@@ -80,6 +80,17 @@ Instance Instance::fromVertices(std::shared_ptr<const Grid> grid, const std::vec
   return Instance(std::move(grid), start_cells, goal_cells, extent);
 }
 
+Instance Instance::stretchOf(const Instance& whole, const std::vector<Vertex>& starts,
+                             const std::vector<Vertex>& goals) {
+  Instance stretch = fromVertices(whole.sharedGrid(), starts, goals, DistanceExtent::kOnDemand);
+  stretch.tables_ = std::make_shared<DistanceTables>(*stretch.grid_, starts, goals, whole.tables_);
+  for (std::uint32_t i = 0; i < whole.robots(); ++i) {
+    if (goals[i] != whole.goal(i) || !whole.distances(i).isShareable()) continue;
+    stretch.adoptDistances(i, whole.shareDistances(i));
+  }
+  return stretch;
+}
+
 std::optional<std::uint32_t> findCutOffRobot(const Instance& instance) {
   for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {
     if (instance.shortestLength(robot) == DistanceTable::kUnreachable) return robot;

@@ -100,16 +100,10 @@ class SeamDrawer {
 
 Decomposition makePiece(const Instance& whole, const std::vector<Vertex>& from,
                         const std::vector<Vertex>& to, std::size_t number) {
-  // A piece's robots see little of the map, so its distances are found as they are asked for.
-  Instance piece = Instance::fromVertices(whole.sharedGrid(), from, to, DistanceExtent::kOnDemand);
   std::vector<std::uint32_t> everyone(whole.robots());
   std::iota(everyone.begin(), everyone.end(), 0U);
-  for (std::uint32_t i = 0; i < whole.robots(); ++i) {
-    // Pieces are solved in threads of their own.
-    if (to[i] == whole.goal(i) && whole.distances(i).isShareable()) {
-      piece.adoptDistances(i, whole.shareDistances(i));
-    }
-  }
+  // A piece's robots see little of the map, and pieces are solved in threads of their own.
+  Instance piece = Instance::stretchOf(whole, from, to);
   return Decomposition::leaf(std::move(piece), std::move(everyone),
                              static_cast<std::uint32_t>(number));
 }

@@ -139,6 +139,64 @@ TEST(DistanceTableOnDemand, StaysExactBeyondSixteenBits) {
   for (Vertex v = 0; v < grid->size(); ++v) ASSERT_EQ(lazy(v), whole(v));
 }
 
+/// Random vertices of a random grid on which not everybody can reach everybody.
+struct GuidedCase {
+  explicit GuidedCase(std::uint64_t seed) : engine(seed) {
+    const std::uint32_t width = 3 + static_cast<std::uint32_t>(drawBelow(engine, 18));
+    const std::uint32_t height = 3 + static_cast<std::uint32_t>(drawBelow(engine, 18));
+    std::vector<bool> free(std::size_t{width} * height);
+    for (std::size_t i = 0; i < free.size(); ++i) free[i] = drawBelow(engine, 10) >= 3;
+    free[0] = true;
+    grid = std::make_shared<const Grid>(width, height, free);
+  }
+  Vertex draw() { return static_cast<Vertex>(drawBelow(engine, grid->size())); }
+
+  RandomEngine engine;
+  std::shared_ptr<const Grid> grid;
+};
+
+TEST(DistanceTableGuided, SaysTheSameInWhateverOrderItIsAsked) {
+  std::uint32_t unreachable = 0;
+  for (std::uint64_t seed = 0; seed < 600; ++seed) {
+    GuidedCase random(seed);
+    const Grid& grid = *random.grid;
+    const Vertex goal = random.draw();
+    DistanceGuide guide{&grid, random.draw(), nullptr};
+    if (seed % 3 > 0) {
+      const auto extent = seed % 6 == 5 ? DistanceExtent::kOnDemand : DistanceExtent::kAll;
+      guide.known = std::make_shared<const DistanceTable>(grid.graph(), random.draw(), extent);
+    }
+    const std::vector<std::uint32_t> expected = relax(grid.graph(), goal);
+    const DistanceTable guided(goal, guide);
+    EXPECT_FALSE(guided.isShareable());
+    EXPECT_EQ(guided.narrowEntries(), nullptr);
+    if (seed % 2 == 0) {
+      ASSERT_EQ(guided(guide.from), expected[guide.from]);
+    }
+    for (int question = 0; question < 100; ++question) {
+      const Vertex v = random.draw();
+      ASSERT_EQ(guided(v), expected[v]) << "seed " << seed << " vertex " << v;
+      unreachable += expected[v] == DistanceTable::kUnreachable;
+    }
+  }
+  EXPECT_GT(unreachable, 1000U) << "what cannot be reached was hardly asked for";
+}
+
+TEST(DistanceTableGuided, StaysExactBeyondSixteenBits) {
+  const auto grid = serpentineGrid(400);
+  const Vertex last = grid->size() - 1;
+  const DistanceTable whole(grid->graph(), 0);
+  // Distances to the middle fit, those to the end do not.
+  Vertex middle = 0;
+  while (whole(middle) != grid->size() / 2) ++middle;
+  const auto known = std::make_shared<const DistanceTable>(grid->graph(), middle);
+  ASSERT_FALSE(known->isWide());
+  const DistanceTable guided(0, {grid.get(), last, known});
+  EXPECT_EQ(guided(10), whole(10));
+  for (Vertex v = 0; v < grid->size(); ++v) ASSERT_EQ(guided(v), whole(v));
+  EXPECT_TRUE(guided.isWide());
+}
+
 TEST(DistanceTables, ManyThreadsShareOneTableAGoal) {
   const auto grid = serpentineGrid(40);
   std::vector<Vertex> goals(64);

@@ -111,6 +111,18 @@ TEST(Instance, FromVerticesEqualsFromCells) {
   EXPECT_THROW(Instance::fromVertices(grid, {1, 1}, {0, 2}), InstanceError);
 }
 
+TEST(Instance, AStretchKeepsTheTableOfWhoIsHomeAtItsEnd) {
+  const auto grid = gridFromAscii({".....", ".###.", "....."});
+  const Instance whole = Instance::fromVertices(grid, {0, 7}, {4, 11});
+  const Instance stretch = Instance::stretchOf(whole, {1, 7}, {3, 11});
+  EXPECT_EQ(stretch.start(0), 1U);
+  EXPECT_EQ(stretch.goal(0), 3U);
+  EXPECT_EQ(stretch.shortestLength(0), 2U);
+  EXPECT_EQ(stretch.distances(0)(7), 5U) << "as exact as any, however far away";
+  EXPECT_FALSE(stretch.distances(0).isShareable());
+  EXPECT_EQ(&stretch.distances(1), &whole.distances(1));
+}
+
 TEST(InstanceError, CountsFurtherFaults) {
   const InstanceError error(
       {{0, FaultKind::kOutsideMap, "first"}, {1, FaultKind::kOutsideMap, "second"}});

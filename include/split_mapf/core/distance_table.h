@@ -6,8 +6,11 @@
 #include <vector>
 
 #include "split_mapf/core/graph.h"
+#include "split_mapf/core/grid.h"
 
 namespace split_mapf {
+
+class DistanceTable;
 
 /// How much of a distance table is computed at once.
 enum class DistanceExtent {
@@ -15,11 +18,22 @@ enum class DistanceExtent {
   kOnDemand,  ///< as far from the goal as somebody asks: for tables of which little is read
 };
 
+/// Tells a table on demand that it will be read on the short ways from one vertex to its goal and
+/// little elsewhere, and what it may know beforehand about these.
+struct DistanceGuide {
+  const Grid* grid = nullptr;  ///< of the graph: no way has fewer steps than rows and columns
+  Vertex from = kNoVertex;
+  /// Distances on the same graph to whatever goal, which has a way from `from`; null: none are
+  /// known. One of kAll that takes 16 bits; any other is left aside.
+  std::shared_ptr<const DistanceTable> known;
+};
+
 /// Exact shortest distances [steps] from every vertex to one goal, by breadth-first search.
 /// Entries take 16 bits while every distance fits, 32 bits otherwise. A table of kAll is safe to
 /// read from several threads; one of kOnDemand grows while it is read and belongs to one thread at
 /// a time. Cost: O(V + E) time and 2 or 4 bytes a vertex; kOnDemand pays only for the part within
-/// the greatest distance asked for.
+/// the greatest distance asked for, and with a guide only for what lies on ways from there that are
+/// no longer than the one over the vertex asked for.
 class DistanceTable {
  public:
   /// The distance of a vertex that cannot reach the goal.
@@ -27,6 +41,9 @@ class DistanceTable {
 
   /// @pre kOnDemand: `graph` outlives the table.
   DistanceTable(const Graph& graph, Vertex goal, DistanceExtent extent = DistanceExtent::kAll);
+  /// One on demand. @pre guide.grid outlives the table, goal and guide.from are vertices of it.
+  DistanceTable(Vertex goal, DistanceGuide guide);
+  ~DistanceTable();
 
   Vertex goal() const { return goal_; }
   std::uint32_t operator()(Vertex v) const {
@@ -59,8 +76,17 @@ class DistanceTable {
   /// Goes on with 32 bits from a queue whose distances outgrow 16.
   void searchWide(const Graph& graph, std::vector<Vertex>& queue, std::size_t head,
                   std::size_t tail);
+  struct GuidedSearch;
+
+  void startOnDemand(const Graph& graph);
   /// Goes on with the search until it meets `v` or ends.
   std::uint32_t search(Vertex v) const;
+  std::uint32_t searchGuided(Vertex v) const;
+  /// Puts the neighbours of a vertex where they belong; returns whether `v` is now known.
+  bool expandGuided(Vertex from, Vertex v) const;
+  bool isKnown(Vertex v) const {
+    return wide_.empty() ? narrow_[placeOf(v)] != kNarrowUnknown : wide_[v] != kUnreachable;
+  }
   void settle(Vertex v, std::uint32_t distance) const;
   void widen() const;
 
@@ -73,6 +99,7 @@ class DistanceTable {
   mutable std::vector<Vertex> queue_;
   mutable std::size_t head_ = 0;
   const Graph* graph_ = nullptr;  // null: everything was searched at once
+  std::unique_ptr<GuidedSearch> guided_;
 };
 
 /// One distance table a goal, each computed when first asked for and kept from then on.
@@ -83,6 +110,10 @@ class DistanceTables {
   /// @pre `graph` outlives this object.
   DistanceTables(const Graph& graph, const std::vector<Vertex>& goals,
                  DistanceExtent extent = DistanceExtent::kAll);
+  /// Tables on demand for robots on the way from `starts` to `goals`. @param known  tables of the
+  /// same robots to other goals. @pre `grid` outlives this object; every goal can be reached.
+  DistanceTables(const Grid& grid, const std::vector<Vertex>& starts,
+                 const std::vector<Vertex>& goals, std::shared_ptr<const DistanceTables> known);
 
   const DistanceTable& operator[](std::uint32_t i) const;
   /// Shares a table that stands already, so that stages never search for the same goal twice.
@@ -95,9 +126,14 @@ class DistanceTables {
     std::once_flag once;
     std::shared_ptr<const DistanceTable> table;
   };
+  std::shared_ptr<const DistanceTable> make(std::uint32_t i) const;
+
   const Graph* graph_;
   std::vector<Vertex> goals_;
   DistanceExtent extent_;
+  const Grid* grid_ = nullptr;  // null: without guides
+  std::vector<Vertex> starts_;
+  std::shared_ptr<const DistanceTables> known_;
   mutable std::vector<Slot> slots_;
 };
 

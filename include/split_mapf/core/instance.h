@@ -26,6 +26,13 @@ class Instance {
                                const std::vector<Vertex>& goals,
                                DistanceExtent extent = DistanceExtent::kAll);
 
+  /// Robots of `whole` on a part of their ways, from other starts to other goals. Distances are
+  /// found on demand, with the help of the whole's; a robot whose goal is the whole's shares its
+  /// table, if threads may. @pre one vertex of the whole's grid a robot, and every robot can reach
+  /// its goal.
+  static Instance stretchOf(const Instance& whole, const std::vector<Vertex>& starts,
+                            const std::vector<Vertex>& goals);
+
   const Grid& grid() const { return *grid_; }
   const std::shared_ptr<const Grid>& sharedGrid() const { return grid_; }
   const Graph& graph() const { return grid_->graph(); }
