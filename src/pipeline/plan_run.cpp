@@ -105,17 +105,27 @@ void PlanRun::refineWithin(double seconds) {
 
 bool PlanRun::computeDistances() {
   const bool choosing = mustChoose();
+  const std::optional<std::uint64_t> seed = seedOfWays();
   if (choosing) shortest_paths_.resize(instance_.robots());
+  if (seed) ways_.resize(instance_.robots());
   executor_.forEach(
       instance_.robots(),
-      [this, choosing](std::uint32_t robot) {
+      [&](std::uint32_t robot) {
         if (deadline_.expired()) return;
         instance_.distances(robot);
         // Now that the table is in the cache.
         if (choosing) shortest_paths_[robot] = shortestPath(instance_, robot);
+        if (seed) ways_[robot] = drawShortestWay(instance_, robot, *seed);
       },
       report_.threads, deadline_);
   return !deadline_.expired();
+}
+
+std::optional<std::uint64_t> PlanRun::seedOfWays() const {
+  if (request_.split.space || request_.split.time_ratios.size() < 2) return std::nullopt;
+  const TimeSplitOptions options = timeSplitOptions();
+  if (!followsShortestWays(instance_, options)) return std::nullopt;
+  return options.seed;
 }
 
 bool PlanRun::reportUnsolvable() {
@@ -234,7 +244,7 @@ bool PlanRun::splitSpace() {
 std::optional<Decomposition> PlanRun::split() {
   if (request_.split.time_ratios.size() > 1) {
     log_.enterStage("split");
-    return splitTime(instance_, timeSplitOptions(), deadline_);
+    return splitTime(instance_, timeSplitOptions(), deadline_, std::move(ways_));
   }
   std::vector<std::uint32_t> everyone(instance_.robots());
   std::iota(everyone.begin(), everyone.end(), 0U);

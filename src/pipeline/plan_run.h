@@ -23,8 +23,11 @@ class PlanRun {
 
  private:
   void runStages();
-  /// The distance tables and, where `auto` must choose, what it imagines of the robots' ways.
+  /// The distance tables and, where `auto` must choose, what it imagines of the robots' ways; and
+  /// the ways that a split in time cuts.
   bool computeDistances();
+  /// The seed of these, where there is such a split.
+  std::optional<std::uint64_t> seedOfWays() const;
   /// True, with the reason in the report, when no plan exists.
   bool reportUnsolvable();
   /// @pre no robot is cut off.
@@ -63,6 +66,7 @@ class PlanRun {
   const SolverRegistry& solvers_;
   PieceSolver piece_solver_;
   std::vector<Path> shortest_paths_;          ///< of the robots, until `auto` has chosen
+  std::vector<Path> ways_;                    ///< of the robots, until they are cut in time
   std::optional<InstanceFeatures> features_;  ///< set where `auto` had to choose
   std::string solver_said_;                   ///< of the plan of an unsplit instance
   std::string choice_;                        ///< why, for people

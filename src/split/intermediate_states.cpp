@@ -50,7 +50,9 @@ std::vector<Vertex> IntermediateStates::choose(const std::vector<Vertex>& from,
   for (const std::uint32_t i : longestFirst(from)) {
     if (chosen[i] != kNoVertex) continue;
     if (deadline.expired()) return {};
-    chosen[i] = chooseOne(queryFor(i, from[i], target[i], share), engine);
+    const Query query = queryFor(i, from[i], target[i], share);
+    chosen[i] = chooseOnWay(query, engine);
+    if (chosen[i] == kNoVertex) chosen[i] = chooseOne(query, engine);
     used_[chosen[i]] = true;
   }
   return chosen;
@@ -77,6 +79,17 @@ std::vector<Vertex> IntermediateStates::match(const std::vector<Vertex>& from,
     used_[chosen[i]] = true;
   }
   return chosen;
+}
+
+Vertex IntermediateStates::chooseOnWay(const Query& query, RandomEngine& engine) {
+  if (!ways_) return kNoVertex;
+  // Between these two a step adds no excess, or takes away as much as it adds.
+  const std::uint32_t rest_fits = query.length - std::min(query.length, query.share.rest);
+  const std::uint32_t piece_fits = std::min(query.length, query.share.piece);
+  const std::uint32_t steps =
+      std::clamp(query.target, std::min(rest_fits, piece_fits), std::max(rest_fits, piece_fits));
+  const Vertex v = ways_->after(query.robot, query.from, steps, engine);
+  return used_[v] ? kNoVertex : v;
 }
 
 std::vector<Candidate> IntermediateStates::candidatesOf(const Query& query, RandomEngine& engine) {

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "split/assignment.h"
+#include "split/shortest_ways.h"
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/random.h"
@@ -21,6 +24,14 @@ struct TimeShare {
 class IntermediateStates {
  public:
   explicit IntermediateStates(const Instance& instance);
+
+  /// From now on robots that choose take the best state on their way, if nobody has it yet.
+  /// @param ways  see ShortestWays.
+  void follow(std::vector<Path> ways) { ways_.emplace(instance_, std::move(ways)); }
+  /// Has the ways drawn again, if there are any, to other states.
+  void drawWaysAgain() {
+    if (ways_) ways_->forget();
+  }
 
   /// Robots whose target is their goal get it; the others choose after them, the longest way first.
   /// @param from    where the robots are when the piece begins.
@@ -51,6 +62,8 @@ class IntermediateStates {
 
   std::vector<std::uint32_t> longestFirst(const std::vector<Vertex>& from) const;
   Query queryFor(std::uint32_t robot, Vertex from, std::uint32_t target, TimeShare share) const;
+  /// The state on its way that the robot rates best; kNoVertex where it is taken or there is none.
+  Vertex chooseOnWay(const Query& query, RandomEngine& engine);
   /// Walks all cells that cost at most `detour` extra steps; calls visit(vertex, steps walked).
   template <typename Visit>
   void walk(const Query& query, std::uint32_t detour, Visit visit);
@@ -62,6 +75,7 @@ class IntermediateStates {
   static bool better(const Rating& a, const Rating& b);
 
   const Instance& instance_;
+  std::optional<ShortestWays> ways_;
   std::vector<bool> used_;
   std::vector<std::uint32_t> seen_;    // number of the search that met the vertex last
   std::vector<std::uint32_t> walked_;  // distance from the robot, valid where seen

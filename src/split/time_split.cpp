@@ -48,18 +48,36 @@ std::vector<std::uint32_t> targets(const Instance& instance, const std::vector<V
   return target;
 }
 
+// Ways that are drawn beforehand make states less even than a look at all candidates. Where robots
+// fill a fifth of the cells that costs: random-32-32-20 with 150 robots has makespans of 1.048
+// times the bound in four pieces, instead of 1.040.
+constexpr std::uint32_t kCellsARobot = 20;
+
+std::vector<Path> drawShortestWays(const Instance& instance, std::uint64_t seed,
+                                   const Deadline& deadline) {
+  std::vector<Path> ways;
+  ways.reserve(instance.robots());
+  for (std::uint32_t i = 0; i < instance.robots() && !deadline.expired(); ++i) {
+    ways.push_back(drawShortestWay(instance, i, seed));
+  }
+  return ways;
+}
+
 // After so many refused draws a seam is given up.
 constexpr std::uint32_t kMostDraws = 8;
 
 /// Draws the seams of one time split, one after another.
 class SeamDrawer {
  public:
-  SeamDrawer(const Instance& instance, const TimeSplitOptions& options, const Deadline& deadline)
+  SeamDrawer(const Instance& instance, const TimeSplitOptions& options, const Deadline& deadline,
+             std::vector<Path> ways)
       : instance_(instance),
         options_(options),
         deadline_(deadline),
         states_(instance),
-        engine_(options.seed) {}
+        engine_(options.seed) {
+    if (!ways.empty()) states_.follow(std::move(ways));
+  }
 
   /// Where the robots are after a piece that takes `ratio` of the time left; empty when no draw
   /// was solvable or the deadline expired.
@@ -69,6 +87,7 @@ class SeamDrawer {
     share.rest = left - share.piece;
     const auto wanted = targets(instance_, from, ratio, share, options_.variant);
     for (std::uint32_t attempt = 0; attempt < kMostDraws; ++attempt) {
+      if (attempt > 0) states_.drawWaysAgain();
       const auto target = loosen(wanted, attempt);
       std::vector<Vertex> to = options_.assignment == StateAssignment::kGreedy
                                    ? states_.choose(from, target, share, engine_, deadline_)
@@ -110,14 +129,14 @@ Decomposition makePiece(const Instance& whole, const std::vector<Vertex>& from,
 
 /// Halves the instance and then each half, until there are as many pieces as ratios.
 std::optional<Decomposition> bisect(const Instance& instance, TimeSplitOptions options,
-                                    const Deadline& deadline) {
+                                    const Deadline& deadline, std::vector<Path> ways) {
   const std::size_t pieces = options.ratios.size();
   if ((pieces & (pieces - 1)) != 0) {
     throw OptionError("variant=bisection needs a power of two of pieces, not " +
                       std::to_string(pieces));
   }
   options.ratios = {0.5, 0.5};
-  std::optional<Decomposition> halves = splitTime(instance, options, deadline);
+  std::optional<Decomposition> halves = splitTime(instance, options, deadline, std::move(ways));
   if (!halves || pieces == 2) return halves;
   options.ratios.assign(pieces / 2, 2.0 / static_cast<double>(pieces));
   std::vector<Decomposition> leaves;
@@ -134,12 +153,22 @@ std::optional<Decomposition> bisect(const Instance& instance, TimeSplitOptions o
 
 }  // namespace
 
+bool followsShortestWays(const Instance& instance, const TimeSplitOptions& options) {
+  return options.assignment == StateAssignment::kGreedy &&
+         instance.robots() <= instance.graph().size() / kCellsARobot;
+}
+
 std::optional<Decomposition> splitTime(const Instance& instance, const TimeSplitOptions& options,
-                                       const Deadline& deadline) {
+                                       const Deadline& deadline, std::vector<Path> ways) {
   if (options.variant == TimeSplitVariant::kBisection && options.ratios.size() > 2) {
-    return bisect(instance, options, deadline);
+    return bisect(instance, options, deadline, std::move(ways));
   }
-  SeamDrawer drawer(instance, options, deadline);
+  if (!followsShortestWays(instance, options))
+    ways.clear();
+  else if (ways.empty())
+    ways = drawShortestWays(instance, options.seed, deadline);
+  if (deadline.expired()) return std::nullopt;
+  SeamDrawer drawer(instance, options, deadline, std::move(ways));
   std::vector<Decomposition> pieces;
   std::vector<Vertex> from = instance.starts();
   double open = std::accumulate(options.ratios.begin(), options.ratios.end(), 0.0);

@@ -103,6 +103,29 @@ TEST_P(TimeSplit, TheSameSeedGivesTheSameStates) {
   EXPECT_NE(states(7), states(8));
 }
 
+TEST_P(TimeSplit, WaysDrawnBeforehandChangeNothing) {
+  for (const std::uint32_t robots : {20U, 120U}) {
+    const Instance instance = randomInstance(32, 0.1, robots, 4);
+    const TimeSplitOptions options = equal(4, GetParam(), 5);
+    EXPECT_EQ(followsShortestWays(instance, options), robots == 20);
+    std::vector<Path> ways;
+    for (std::uint32_t i = 0; i < robots; ++i) ways.push_back(drawShortestWay(instance, i, 5));
+    const auto alone = splitTime(instance, options, Deadline());
+    const auto helped = splitTime(instance, options, Deadline(), ways);
+    ASSERT_EQ(alone->children.size(), helped->children.size());
+    for (std::size_t j = 0; j < alone->children.size(); ++j) {
+      EXPECT_EQ(alone->children[j].instance->goals(), helped->children[j].instance->goals());
+    }
+    // Whoever has its own way's state to itself is there.
+    std::uint32_t on_way = 0;
+    const std::vector<Vertex>& seam = helped->children[0].instance->goals();
+    for (std::uint32_t i = 0; i < robots; ++i) {
+      on_way += std::find(ways[i].begin(), ways[i].end(), seam[i]) != ways[i].end();
+    }
+    EXPECT_GE(on_way, robots == 20 ? 18U : 0U);
+  }
+}
+
 TEST_P(TimeSplit, CrowdedGridsStillGetStatesOfTheirOwn) {
   const Instance instance = randomInstance(8, 0, 64, 5);
   const auto tree = splitTime(instance, equal(4, GetParam()), Deadline());

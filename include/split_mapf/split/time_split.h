@@ -6,6 +6,7 @@
 
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
+#include "split_mapf/core/plan.h"
 #include "split_mapf/core/solvability.h"
 #include "split_mapf/split/decomposition.h"
 
@@ -40,6 +41,13 @@ struct TimeSplitOptions {
   const SolvabilityChecker* checker = nullptr;
 };
 
+/// Whether splitTime() cuts shortest ways drawn beforehand: where robots choose greedily and have
+/// much room.
+bool followsShortestWays(const Instance& instance, const TimeSplitOptions& options);
+/// A shortest way of a robot from its start, its turns drawn by the seed. @pre it is not cut off.
+/// Cost: little while the robot's distances are in the cache.
+Path drawShortestWay(const Instance& instance, std::uint32_t robot, std::uint64_t seed);
+
 /// Cuts an instance in time: a sequence of pieces, each on the whole grid with all robots, each
 /// ending in the intermediate states in which the next begins.
 /// Source: Guo, Han and Yu 2021, Algorithm 1. Deviations: intermediate states are chosen piece by
@@ -48,12 +56,17 @@ struct TimeSplitOptions {
 /// its detour, then by its distance from the robot's share. So pieces cost no step more than the
 /// whole where free cells on shortest paths exist, which the paper's own widening (d(s,v) and
 /// d(v,g) together one step off any grid vertex) does not reach. Equals are drawn by the seed.
+/// Where there is much room a robot does not look at all candidates, but takes the best on a
+/// shortest way drawn beforehand, which is as good as any, unless another robot has it.
 /// Intermediate states that the checker refuses are drawn anew with wider tolerance, a few times;
 /// then that seam is left out, as moves can be undone and so the pieces around it are solvable
 /// together. A piece in which no robot has to move is left out. @return nothing when the deadline
 /// expired.
-/// @pre no robot is cut off from its goal. Cost: the cells on shortest paths, a robot and piece.
+/// @param ways  every robot's drawShortestWay() with the seed, where followsShortestWays() and the
+/// caller has threads to draw them with; empty: they are drawn here, to the same result.
+/// @pre no robot is cut off from its goal. Cost: the steps of shortest paths, where they are
+/// followed; else, and for robots whose state is taken, the cells on them, a robot and piece.
 std::optional<Decomposition> splitTime(const Instance& instance, const TimeSplitOptions& options,
-                                       const Deadline& deadline);
+                                       const Deadline& deadline, std::vector<Path> ways = {});
 
 }  // namespace split_mapf
