@@ -158,6 +158,8 @@ TEST(NeighbourhoodPicker, TakesADelayedRobotAndEachRobotOnce) {
   NeighbourhoodPicker picker(instance, 1);
   Neighbourhood picked;
   std::size_t largest = 0;
+  int keeping = 0;
+  int planning_anew = 0;
   for (int i = 0; i < 500; ++i) {
     picker.pick(plan, table, picked);
     std::vector<std::uint32_t> robots = picked.robots;
@@ -170,7 +172,9 @@ TEST(NeighbourhoodPicker, TakesADelayedRobotAndEachRobotOnce) {
     if (!picked.sideways) {
       const std::uint32_t robot = picked.robots.front();
       EXPECT_GT(plan.paths[robot].size() - 1, instance.shortestLength(robot)) << "it may gain";
+      ++(picked.keeps ? keeping : planning_anew);
     }
+    EXPECT_FALSE(picked.sideways && picked.keeps);
     for (const std::uint32_t robot : robots) {
       const Path& path = plan.paths[robot];
       const std::uint32_t kept = picked.keptUntil(path);
@@ -182,6 +186,8 @@ TEST(NeighbourhoodPicker, TakesADelayedRobotAndEachRobotOnce) {
     picker.reward(i % 7 == 0 ? 1 : 0, 300);
   }
   EXPECT_EQ(largest, 16U);
+  EXPECT_GT(keeping, 50);
+  EXPECT_GT(planning_anew, 50);
 }
 
 }  // namespace

@@ -75,6 +75,50 @@ void expectSameStays(const ReservationTable& a, const ReservationTable& b) {
   }
 }
 
+constexpr Vertex kMiddle = 200;  // farther from both ends of a line than anybody wanders
+
+/// On a line of vertices, waits and steps either way.
+Path wander(RandomEngine& engine) {
+  Path path = {kMiddle};
+  for (std::size_t steps = drawBelow(engine, 150); steps > 0; --steps) {
+    path.push_back(path.back() + static_cast<Vertex>(drawBelow(engine, 3)) - 1);
+  }
+  while (path.size() > 1 && path[path.size() - 2] == path.back()) path.pop_back();
+  return path;
+}
+
+bool meet(const Path& a, const Path& b, std::uint32_t after) {
+  for (std::uint32_t t = after + 1; t < kSteps; ++t) {
+    if (positionAt(a, t) == positionAt(b, t)) return true;
+    if (positionAt(a, t) == positionAt(b, t - 1) && positionAt(a, t - 1) == positionAt(b, t)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+TEST(ReservationTable, KnowsWhetherTheRestOfAPathIsFree) {
+  int free = 0;
+  int tried = 0;
+  for (std::uint64_t seed = 0; seed < 4000; ++seed) {
+    RandomEngine engine(seed);
+    const Path other = wander(engine);
+    const Path path = wander(engine);
+    const auto from = static_cast<std::uint32_t>(drawBelow(engine, path.size()));
+    const bool comes = from == 0 || path[from] != path[from - 1];
+    const bool alone = positionAt(other, from) != path[from];
+    if (!comes || !alone) continue;
+    ReservationTable table(2 * kMiddle);
+    table.insert(0, other);
+    const bool expected = !meet(path, other, from);
+    EXPECT_EQ(table.isFree(path, from), expected) << "seed " << seed;
+    ++tried;
+    free += expected;
+  }
+  EXPECT_GT(free, tried / 10);
+  EXPECT_LT(free, tried * 9 / 10);
+}
+
 TEST(ReservationTable, TailsComeAndGo) {
   const Path parked = {3, 2};
   Path before(70, 10);  // a visit of 70 steps, then on

@@ -17,6 +17,7 @@ void NeighbourhoodPicker::reward(std::uint64_t gain, std::uint64_t expansions) {
   ways_.reward(rate);
   sizes_.reward(rate);
   reaches_.reward(rate);
+  keeps_.reward(rate);
   if (expansions > 0) in_vain_ = gain > 0 ? 0 : in_vain_ + 1;
 }
 
@@ -149,6 +150,8 @@ void NeighbourhoodPicker::pick(const Plan& plan, const PathTable& table, Neighbo
   picked.reach = kReaches[reaches_.draw(engine_)];
   picked.event = drawLostStep(plan.paths[robot], instance_.distances(robot));
   picked.sideways = drawBelow(engine_, in_vain_ + instance_.robots()) < in_vain_;
+  // Sideways it is the first robots' new ways that make the others look for new ones.
+  picked.keeps = keeps_.draw(engine_) == 1 && !picked.sideways;
   add(robot, robots);
   if (way == kInTheWay) walkInTheWay(plan, table, robot, size, picked);
   if (way == kAroundArrival) takeAroundArrival(plan, table, robot, size, picked);

@@ -19,6 +19,9 @@ struct Neighbourhood {
   /// Whether other paths of the same cost will do; if not, the first robot, a delayed
   /// one, has to arrive earlier.
   bool sideways = false;
+  /// Whether the others stay on their paths where the first robot leaves them free, and the rest
+  /// must not use up what it gains; if not, all share what they cost together.
+  bool keeps = false;
   /// Who arrives by `event` may change its path from `reach` steps before its arrival on, everybody
   /// else from `reach` steps before `event`.
   std::uint32_t event = 0;
@@ -36,6 +39,7 @@ struct Neighbourhood {
 /// mostly as good as it can be, and need not be searched again. Their ends are elastic, as every
 /// robot's way leads on to its goal. And the rarer gains get, the more often a neighbourhood leads
 /// sideways, across plateaus: that takes longer than to see that a delayed robot stays delayed.
+/// And either everybody is planned anew, or, with a fraction of the searches, only who has to be.
 class NeighbourhoodPicker {
  public:
   NeighbourhoodPicker(const Instance& instance, std::uint64_t seed);
@@ -69,6 +73,7 @@ class NeighbourhoodPicker {
   AdaptiveChoice<kWays> ways_;
   AdaptiveChoice<kSizes.size()> sizes_;
   AdaptiveChoice<kReaches.size()> reaches_;
+  AdaptiveChoice<2> keeps_;
   std::vector<std::uint32_t> marks_;  // by robot: number of the last pick that took it
   std::uint32_t pick_number_ = 0;
   std::uint64_t in_vain_ = 0;  // searches since the last gain

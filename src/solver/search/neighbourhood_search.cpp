@@ -22,14 +22,26 @@ void NeighbourhoodSearch::replace(std::uint32_t robot, Path path) {
   table_.insert(robot, plan_.paths[robot]);
 }
 
-void NeighbourhoodSearch::pick() {
+/// @return whether there is anything to gain.
+bool NeighbourhoodSearch::pick() {
   picker_.pick(plan_, table_.paths(), picked_);
   members_.clear();
+  budget_ = set_aside_ = 0;
+  std::uint64_t least = 0;
   for (const std::uint32_t robot : picked_.robots) {
     const Path& path = plan_.paths[robot];
-    const std::uint32_t kept = picked_.keptUntil(path);
-    members_.push_back({robot, kept, kept + instance_.distances(robot)(path[kept])});
+    Member member;
+    member.robot = robot;
+    member.kept = picked_.keptUntil(path);
+    member.cost = static_cast<std::uint32_t>(path.size() - 1);
+    const std::uint32_t soonest = member.kept + instance_.distances(robot)(path[member.kept]);
+    member.set_aside = picked_.keeps ? member.cost : soonest;
+    members_.push_back(member);
+    budget_ += member.cost;
+    set_aside_ += member.set_aside;
+    least += soonest;
   }
+  return least < budget_;
 }
 
 Path NeighbourhoodSearch::search(const Member& member, std::uint32_t latest_arrival,
@@ -50,34 +62,46 @@ Path NeighbourhoodSearch::search(const Member& member, std::uint32_t latest_arri
   return std::move(answer.path);
 }
 
-bool NeighbourhoodSearch::replan(std::uint64_t budget, const Deadline& deadline) {
+/// Of the next member, before what it set aside is taken back.
+std::uint32_t NeighbourhoodSearch::latestArrival(const Member& member) const {
+  std::uint64_t latest = budget_ - (set_aside_ - member.set_aside);
+  if (changes_.empty() && !picked_.sideways) {
+    latest = std::min<std::uint64_t>(latest, member.cost - 1);
+  }
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(latest, latest_arrival_));
+}
+
+/// Members but the first go back to their paths where these are free, and are none any more.
+void NeighbourhoodSearch::releaseWhoIsFree() {
+  const auto release = [this](const Member& member) {
+    const Path& path = plan_.paths[member.robot];
+    if (!table_.isFree(path, member.kept)) return false;
+    table_.insertTail(member.robot, path, member.kept);
+    budget_ -= member.cost;
+    set_aside_ -= member.set_aside;
+    return true;
+  };
+  members_.erase(std::remove_if(members_.begin() + 1, members_.end(), release), members_.end());
+}
+
+/// What is left of the budget is what was gained.
+bool NeighbourhoodSearch::replan(const Deadline& deadline) {
   changes_.clear();
-  std::uint64_t still_needed = 0;
-  for (const Member& member : members_) still_needed += member.least;
-  for (const Member& member : members_) {
-    still_needed -= member.least;
-    std::uint64_t latest = std::min<std::uint64_t>(latest_arrival_, budget - still_needed);
-    if (changes_.empty() && !picked_.sideways) {
-      latest = std::min<std::uint64_t>(latest, plan_.paths[member.robot].size() - 2);
-    }
-    Path path = search(member, static_cast<std::uint32_t>(latest), deadline);
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const Member& member = members_[i];
+    Path path = search(member, latestArrival(member), deadline);
     if (path.empty()) return false;
-    budget -= path.size() - 1;
+    budget_ -= path.size() - 1;
+    set_aside_ -= member.set_aside;
     table_.insertTail(member.robot, path, member.kept);
     changes_.push_back({member.robot, std::move(path)});
+    if (i == 0 && picked_.keeps) releaseWhoIsFree();
   }
   return true;
 }
 
 std::uint64_t NeighbourhoodSearch::tryOne(const Deadline& deadline, const Accept& accept) {
-  pick();
-  std::uint64_t before = 0;
-  std::uint64_t least = 0;
-  for (const Member& member : members_) {
-    before += plan_.paths[member.robot].size() - 1;
-    least += member.least;
-  }
-  if (before == least) {
+  if (!pick()) {
     picker_.reward(0, 0);
     return 0;
   }
@@ -85,20 +109,18 @@ std::uint64_t NeighbourhoodSearch::tryOne(const Deadline& deadline, const Accept
   for (const Member& member : members_) {
     table_.removeTail(member.robot, plan_.paths[member.robot], member.kept);
   }
-  const bool taken = replan(before, deadline) && accept(changes_);
-  std::uint64_t after = 0;
-  for (std::size_t i = 0; i < changes_.size(); ++i) {
-    after += changes_[i].path.size() - 1;
-    if (!taken) table_.removeTail(changes_[i].robot, changes_[i].path, members_[i].kept);
-  }
+  const bool taken = replan(deadline) && accept(changes_);
   if (taken) {
     for (PathChange& change : changes_) plan_.paths[change.robot] = std::move(change.path);
   } else {
+    for (std::size_t i = 0; i < changes_.size(); ++i) {
+      table_.removeTail(changes_[i].robot, changes_[i].path, members_[i].kept);
+    }
     for (const Member& member : members_) {
       table_.insertTail(member.robot, plan_.paths[member.robot], member.kept);
     }
   }
-  const std::uint64_t gain = taken ? before - after : 0;
+  const std::uint64_t gain = taken ? budget_ : 0;
   picker_.reward(gain, expansions_ - expansions_before);
   return gain;
 }

@@ -20,9 +20,9 @@ struct PathChange {
 
 /// Large-neighbourhood search for sum of costs on a valid plan: takes some robots out, from some
 /// step on, and plans them anew, one after another in a random order, within what they cost
-/// together before. A result
-/// of equal cost counts too, as it leads across plateaus. The plan is valid after every step and
-/// its cost never grows. Deterministic but for the deadline. Not thread-safe.
+/// together before. A result of equal cost counts too, as it leads across plateaus. The plan is
+/// valid after every step and its cost never grows. Deterministic but for the deadline. Not
+/// thread-safe.
 /// Source: Li et al., IJCAI 2021; deviations, see NeighbourhoodPicker.
 class NeighbourhoodSearch {
  public:
@@ -46,11 +46,14 @@ class NeighbourhoodSearch {
   /// A robot of the neighbourhood and the part of its path that it keeps.
   struct Member {
     std::uint32_t robot = 0;
-    std::uint32_t kept = 0;   // until this step
-    std::uint32_t least = 0;  // arrival, if nobody were in its way
+    std::uint32_t kept = 0;       // until this step
+    std::uint32_t cost = 0;       // its arrival before
+    std::uint32_t set_aside = 0;  // what no other member may use of the budget
   };
-  void pick();
-  bool replan(std::uint64_t budget, const Deadline& deadline);
+  bool pick();
+  bool replan(const Deadline& deadline);
+  void releaseWhoIsFree();
+  std::uint32_t latestArrival(const Member& member) const;
   Path search(const Member& member, std::uint32_t latest_arrival, const Deadline& deadline);
 
   const Instance& instance_;
@@ -61,8 +64,10 @@ class NeighbourhoodSearch {
   ReservationTable table_;
   std::uint64_t expansions_ = 0;
   Neighbourhood picked_;
-  std::vector<Member> members_;      // of the current neighbourhood, as are
-  std::vector<PathChange> changes_;  // these
+  std::vector<Member> members_;      // of the current neighbourhood, as are all of these
+  std::vector<PathChange> changes_;  // of the first members
+  std::uint64_t budget_ = 0;         // what the other members may cost
+  std::uint64_t set_aside_ = 0;      // by them
 };
 
 }  // namespace split_mapf

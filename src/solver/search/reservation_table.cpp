@@ -28,6 +28,15 @@ void ReservationTable::insertTail(std::uint32_t robot, const Path& path, std::ui
   flip(path, from + 1);
 }
 
+bool ReservationTable::isFree(const Path& path, std::uint32_t from) const {
+  const std::vector<Stay>& at_goal = at(path.back());
+  if (!at_goal.empty() && at_goal.back().begin >= path.size()) return false;
+  for (auto t = static_cast<std::uint32_t>(path.size() - 1); t > from; --t) {
+    if (isTaken(path[t], t) || oncoming(path[t - 1], path[t], t) != nullptr) return false;
+  }
+  return true;
+}
+
 /// From step `from` on; a robot is alone where it is, so its bits are all unset or all set.
 void ReservationTable::flip(const Path& path, std::uint32_t from) {
   const auto size = static_cast<std::uint32_t>(path.size());

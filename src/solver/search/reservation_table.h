@@ -34,6 +34,9 @@ class ReservationTable {
   }
 
   bool isTaken(Vertex v, std::uint32_t t) const { return (taken(v, t / 64) >> (t % 64) & 1U) != 0; }
+  /// Whether nobody is in the way of a robot that stays on the path after step `from`, and at its
+  /// end for good. @pre of the robot's own visits none is known that begins later than `from`.
+  bool isFree(const Path& path, std::uint32_t from) const;
   /// The visit to `to` of a robot that goes from there to `from` at the very step `t` at which the
   /// robot that asks would go the other way; null if nobody does. @pre t > 0.
   const Stay* oncoming(Vertex from, Vertex to, std::uint32_t t) const;
