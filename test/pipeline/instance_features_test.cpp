@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "support/ascii_grid.h"
+#include "support/meeting.h"
 #include "support/small_instances.h"
 
 namespace split_mapf {
@@ -43,18 +44,6 @@ TEST(InstanceFeatures, RobotsWithRoomHaveNoConflicts) {
   EXPECT_EQ(features.largest_group, 1U);
 }
 
-bool conflict(const Path& a, const Path& b) {
-  const auto steps = static_cast<std::uint32_t>(std::max(a.size(), b.size()));
-  for (std::uint32_t step = 0; step < steps; ++step) {
-    if (positionAt(a, step) == positionAt(b, step)) return true;
-    if (positionAt(a, step) == positionAt(b, step + 1) &&
-        positionAt(b, step) == positionAt(a, step + 1)) {
-      return true;
-    }
-  }
-  return false;
-}
-
 /// Every pair compared at every step, and groups by giving all of one the name of the other.
 void expectConflictsOfPairs(const Instance& instance, const std::vector<Path>& paths) {
   std::uint64_t conflicting = 0;
@@ -62,7 +51,7 @@ void expectConflictsOfPairs(const Instance& instance, const std::vector<Path>& p
   std::iota(group.begin(), group.end(), 0U);
   for (std::uint32_t a = 0; a < paths.size(); ++a) {
     for (std::uint32_t b = 0; b < a; ++b) {
-      if (!conflict(paths[a], paths[b])) continue;
+      if (!test::meet(paths[a], paths[b])) continue;
       ++conflicting;
       std::replace(group.begin(), group.end(), std::uint32_t{group[a]}, std::uint32_t{group[b]});
     }

@@ -12,6 +12,7 @@
 
 #include "split_mapf/core/random.h"
 #include "support/ascii_grid.h"
+#include "support/meeting.h"
 
 namespace split_mapf {
 namespace {
@@ -31,17 +32,6 @@ struct Case {
   std::uint32_t departure = 0;
   std::uint32_t latest_arrival = 0;
 };
-
-bool meets(const Path& a, const Path& b) {
-  for (std::uint32_t t = 0; t <= kHorizon; ++t) {
-    if (positionAt(a, t) == positionAt(b, t)) return true;
-    if (t > 0 && positionAt(a, t) == positionAt(b, t - 1) &&
-        positionAt(a, t - 1) == positionAt(b, t)) {
-      return true;
-    }
-  }
-  return false;
-}
 
 Path randomWalk(const Grid& grid, RandomEngine& engine, std::uint32_t begin) {
   Path path(begin + 1, static_cast<Vertex>(drawBelow(engine, grid.size())));
@@ -65,7 +55,7 @@ Case randomCase(std::uint64_t seed) {
   for (std::uint64_t tries = drawBelow(engine, 12); tries > 0; --tries) {
     const Path path = randomWalk(*c.grid, engine, begin);
     if (std::any_of(c.placed.begin(), c.placed.end(),
-                    [&](const Path& other) { return meets(path, other); })) {
+                    [&](const Path& other) { return test::meet(path, other); })) {
       continue;
     }
     c.placed.push_back(path);
@@ -183,7 +173,7 @@ TEST_P(RandomCases, LeastWeightThenEarliestArrival) {
     EXPECT_EQ(costInCase(c, answer.path), *best) << "seed " << seed;
     std::vector<std::uint32_t> met;
     for (std::uint32_t i = 0; i < c.placed.size(); ++i) {
-      if (meets(c.placed[i], answer.path)) met.push_back(i);
+      if (test::meet(c.placed[i], answer.path)) met.push_back(i);
     }
     EXPECT_EQ(robotsInTheWay(table.paths(), answer.path), met) << "seed " << seed;
   }

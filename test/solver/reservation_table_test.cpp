@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "split_mapf/core/random.h"
+#include "support/meeting.h"
 
 namespace split_mapf {
 namespace {
@@ -87,16 +88,6 @@ Path wander(RandomEngine& engine) {
   return path;
 }
 
-bool meet(const Path& a, const Path& b, std::uint32_t after) {
-  for (std::uint32_t t = after + 1; t < kSteps; ++t) {
-    if (positionAt(a, t) == positionAt(b, t)) return true;
-    if (positionAt(a, t) == positionAt(b, t - 1) && positionAt(a, t - 1) == positionAt(b, t)) {
-      return true;
-    }
-  }
-  return false;
-}
-
 TEST(ReservationTable, KnowsWhetherTheRestOfAPathIsFree) {
   int free = 0;
   int tried = 0;
@@ -110,7 +101,7 @@ TEST(ReservationTable, KnowsWhetherTheRestOfAPathIsFree) {
     if (!comes || !alone) continue;
     ReservationTable table(2 * kMiddle);
     table.insert(0, other);
-    const bool expected = !meet(path, other, from);
+    const bool expected = !test::meet(path, other, from);
     EXPECT_EQ(table.isFree(path, from), expected) << "seed " << seed;
     ++tried;
     free += expected;

@@ -116,13 +116,14 @@ TEST_P(TimeSplit, WaysDrawnBeforehandChangeNothing) {
     for (std::size_t j = 0; j < alone->children.size(); ++j) {
       EXPECT_EQ(alone->children[j].instance->goals(), helped->children[j].instance->goals());
     }
+    if (robots > 20) continue;
     // Whoever has its own way's state to itself is there.
     std::uint32_t on_way = 0;
     const std::vector<Vertex>& seam = helped->children[0].instance->goals();
     for (std::uint32_t i = 0; i < robots; ++i) {
       on_way += std::find(ways[i].begin(), ways[i].end(), seam[i]) != ways[i].end();
     }
-    EXPECT_GE(on_way, robots == 20 ? 18U : 0U);
+    EXPECT_GE(on_way, 18U);
   }
 }
 
