@@ -11,8 +11,7 @@
 
 namespace split_mapf {
 
-/// The best plan so far, shared by the workers of a refinement. It is valid at every moment and its
-/// sum of costs never grows. Workers keep copies of it and offer changes against the version that
+/// The plan that the workers of a refinement share. It is valid at every moment. Workers keep copies of it and offer changes against the version that
 /// they saw; a change that conflicts with what others have changed since is refused. Thread-safe.
 class Incumbent {
  public:
@@ -23,7 +22,7 @@ class Incumbent {
   /// Appends all changes since `version` to `changes`, oldest first; returns the version after
   /// them.
   std::uint64_t changesSince(std::uint64_t version, std::vector<PathChange>& changes) const;
-  /// Takes over new paths that are valid, and not worse in sum, against version `seen`. Refuses,
+  /// Takes over new paths that are valid against version `seen`, whatever they cost. Refuses,
   /// changing nothing, when they conflict with later changes.
   bool offer(std::uint64_t seen, const std::vector<PathChange>& changes);
   /// Frees what nobody will ask for. @pre nobody has seen less than `version`.

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "pipeline/annealing.h"
 #include "pipeline/incumbent.h"
 #include "pipeline/refine_worker.h"
 #include "pipeline/window_descent.h"
@@ -35,6 +36,7 @@ class Refinement {
         executor_(executor),
         deadline_(deadline),
         improved_(improved),
+        annealing_(deadline),
         plan_(std::move(plan)),
         cost_(sumOfCostsOf(plan_)) {
     if (options.solvers == nullptr) return;
@@ -137,19 +139,23 @@ class Refinement {
 
   void searchNeighbourhoods() {
     if (workers_.empty()) employWorkers();
+    // For makespan the next descent begins with what the search leaves.
+    const Annealing* const annealing =
+        options_.objective == Objective::kSumOfCosts ? &annealing_ : nullptr;
     const Deadline round = deadline_.within(kRoundSec);
     std::vector<Executor::Job> jobs;
     for (const auto& worker : workers_) {
-      jobs.push_back({0, [&worker = *worker, &round] { worker.run(round); }});
+      jobs.push_back({0, [&worker = *worker, &round, annealing] { worker.run(round, annealing); }});
     }
     executor_.run(std::move(jobs), options_.threads, deadline_);
     std::uint64_t seen = incumbent_->version();
     for (const auto& worker : workers_) seen = std::min(seen, worker->version());
     incumbent_->forgetBefore(seen);
     Plan now = incumbent_->plan();
-    if (sumOfCostsOf(now) < cost_) {
+    const std::uint64_t cost = sumOfCostsOf(now);
+    if (cost < cost_) {
       take(std::move(now));
-    } else {
+    } else if (cost == cost_) {
       plan_ = std::move(now);
     }
   }
@@ -169,9 +175,10 @@ class Refinement {
   Executor& executor_;
   const Deadline& deadline_;
   const std::function<void(const Plan&)>& improved_;
-  Plan plan_;
-  std::uint64_t cost_;  // its sum of costs
-  std::unique_ptr<Incumbent> incumbent_;
+  const Annealing annealing_;
+  Plan plan_;                             // the best
+  std::uint64_t cost_;                    // its sum of costs
+  std::unique_ptr<Incumbent> incumbent_;  // it, or one that may lead to a better one
   std::vector<std::unique_ptr<RefineWorker>> workers_;
   std::vector<std::string> window_solvers_;
   std::uint64_t window_rounds_ = 0;

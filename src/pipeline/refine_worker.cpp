@@ -18,13 +18,13 @@ void RefineWorker::follow() {
   for (PathChange& change : changes) search_.replace(change.robot, std::move(change.path));
 }
 
-void RefineWorker::run(const Deadline& deadline) {
+void RefineWorker::run(const Deadline& deadline, const Annealing* annealing) {
   const auto offer = [this](const std::vector<PathChange>& changes) {
     return incumbent_.offer(version_, changes);
   };
   while (!deadline.expired()) {
     follow();
-    search_.tryOne(deadline, offer);
+    search_.tryOne(deadline, offer, annealing != nullptr ? annealing->temperature() : 0);
   }
   follow();
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "pipeline/annealing.h"
 #include "pipeline/incumbent.h"
 #include "solver/search/neighbourhood_search.h"
 #include "split_mapf/core/deadline.h"
@@ -15,8 +16,9 @@ class RefineWorker {
  public:
   RefineWorker(const Instance& instance, Incumbent& incumbent, std::uint32_t latest_arrival,
                std::uint64_t seed);
-  /// Searches until the deadline; ends with the newest version.
-  void run(const Deadline& deadline);
+  /// Searches until the deadline; ends with the newest version. @param annealing  null: the plan
+  /// must not become worse.
+  void run(const Deadline& deadline, const Annealing* annealing);
   /// Of the incumbent that its copy of the plan is.
   std::uint64_t version() const { return version_; }
 

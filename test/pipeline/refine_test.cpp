@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "pipeline/annealing.h"
 #include "pipeline/incumbent.h"
 #include "solver/search/neighbourhood.h"
 #include "solver/search/neighbourhood_search.h"
@@ -128,7 +129,7 @@ TEST(NeighbourhoodSearch, IsValidAfterEveryChangeAndNeverWorse) {
   int kept_some_steps = 0;
   for (int i = 0; i < 3000; ++i) {
     bool accepted = false;
-    const std::uint64_t gain =
+    const std::int64_t gain =
         search.tryOne(Deadline(), [&](const std::vector<PathChange>& changes) {
           accepted = i % 3 > 0;  // as others may be in the way
           for (const PathChange& change : changes) {
@@ -138,7 +139,8 @@ TEST(NeighbourhoodSearch, IsValidAfterEveryChangeAndNeverWorse) {
           return accepted;
         });
     EXPECT_TRUE(accepted || gain == 0);
-    cost -= gain;
+    EXPECT_GE(gain, 0);
+    cost -= static_cast<std::uint64_t>(gain);
     ASSERT_EQ(sumOfCostsOf(search.plan()), cost);
     changed += accepted;
     if (i % 10 == 0 || accepted) {
@@ -148,6 +150,38 @@ TEST(NeighbourhoodSearch, IsValidAfterEveryChangeAndNeverWorse) {
   EXPECT_GT(changed, 100);
   EXPECT_GT(kept_some_steps, 100);
   EXPECT_LT(cost, sumOfCostsOf(first));
+}
+
+TEST(NeighbourhoodSearch, LosesNoMoreThanTheTemperatureAllows) {
+  const Instance instance = crowded();
+  NeighbourhoodSearch search(instance, firstPlan(instance), kForever - 1, 3);
+  const auto always = [](const std::vector<PathChange>&) { return true; };
+  auto cost = static_cast<std::int64_t>(sumOfCostsOf(search.plan()));
+  constexpr double kTemperature = 4;
+  std::int64_t most_lost = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const std::int64_t gain = search.tryOne(Deadline(), always, kTemperature);
+    most_lost = std::max(most_lost, -gain);
+    cost -= gain;
+    ASSERT_EQ(static_cast<std::int64_t>(sumOfCostsOf(search.plan())), cost);
+    if (gain != 0) {
+      ASSERT_TRUE(validate(instance, search.plan()).empty()) << i;
+    }
+  }
+  EXPECT_GT(most_lost, 1);
+  EXPECT_LT(most_lost, 20 * kTemperature) << "as good as impossible";
+}
+
+TEST(Annealing, GainsAloneAtFirstAndNothingButGainsInTheEnd) {
+  EXPECT_EQ(Annealing::temperatureAt(0), 0);
+  EXPECT_EQ(Annealing::temperatureAt(0.05), 0);
+  EXPECT_GT(Annealing::temperatureAt(0.1), Annealing::temperatureAt(0.5));
+  EXPECT_GT(Annealing::temperatureAt(0.5), Annealing::temperatureAt(0.9));
+  EXPECT_LT(Annealing::temperatureAt(0.95), 0.1);
+  EXPECT_EQ(Annealing::temperatureAt(1), 0);
+  EXPECT_EQ(Annealing::temperatureAt(1.5), 0);
+  const Deadline never;
+  EXPECT_EQ(Annealing(never).temperature(), 0);
 }
 
 TEST(NeighbourhoodPicker, TakesADelayedRobotAndEachRobotOnce) {

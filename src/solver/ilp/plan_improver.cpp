@@ -65,7 +65,7 @@ Plan PlanImprover::improve(Plan plan, std::uint64_t floor, std::uint64_t patienc
   NeighbourhoodSearch search(instance_, std::move(plan), kForever - 1, seed_++);
   const auto always = [](const std::vector<PathChange>&) { return true; };
   for (std::uint64_t idle = 0; idle < patience && cost > floor && !deadline.expired(); ++idle) {
-    const std::uint64_t gain = search.tryOne(deadline, always);
+    const auto gain = static_cast<std::uint64_t>(search.tryOne(deadline, always));
     if (gain > 0) idle = 0;
     cost -= gain;
   }

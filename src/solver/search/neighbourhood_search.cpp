@@ -1,6 +1,7 @@
 #include "solver/search/neighbourhood_search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace split_mapf {
@@ -10,6 +11,7 @@ NeighbourhoodSearch::NeighbourhoodSearch(const Instance& instance, Plan plan,
     : instance_(instance),
       latest_arrival_(latest_arrival),
       picker_(instance, seed),
+      engine_(seed),
       search_(instance.graph()),
       plan_(std::move(plan)),
       table_(instance.graph().size()) {
@@ -22,11 +24,21 @@ void NeighbourhoodSearch::replace(std::uint32_t robot, Path path) {
   table_.insert(robot, plan_.paths[robot]);
 }
 
+/// Exponentially distributed, so that a loss of so many steps is accepted as often as the
+/// Metropolis rule accepts it.
+std::uint64_t NeighbourhoodSearch::drawLoss(double temperature) {
+  if (temperature <= 0) return 0;
+  constexpr std::uint64_t kSteps = 1U << 20U;
+  const double share = static_cast<double>(drawBelow(engine_, kSteps) + 1) / kSteps;
+  return static_cast<std::uint64_t>(-temperature * std::log(share));
+}
+
 /// @return whether there is anything to gain.
-bool NeighbourhoodSearch::pick() {
+bool NeighbourhoodSearch::pick(double temperature) {
   picker_.pick(plan_, table_.paths(), picked_);
   members_.clear();
-  budget_ = set_aside_ = 0;
+  budget_ = loss_ = drawLoss(temperature);
+  set_aside_ = 0;
   std::uint64_t least = 0;
   for (const std::uint32_t robot : picked_.robots) {
     const Path& path = plan_.paths[robot];
@@ -41,7 +53,7 @@ bool NeighbourhoodSearch::pick() {
     set_aside_ += member.set_aside;
     least += soonest;
   }
-  return least < budget_;
+  return least < budget_ - loss_;
 }
 
 Path NeighbourhoodSearch::search(const Member& member, std::uint32_t latest_arrival,
@@ -84,7 +96,7 @@ void NeighbourhoodSearch::releaseWhoIsFree() {
   members_.erase(std::remove_if(members_.begin() + 1, members_.end(), release), members_.end());
 }
 
-/// What is left of the budget is what was gained.
+/// What is left of the budget, beyond the loss that may be, is what was gained.
 bool NeighbourhoodSearch::replan(const Deadline& deadline) {
   changes_.clear();
   for (std::size_t i = 0; i < members_.size(); ++i) {
@@ -100,8 +112,9 @@ bool NeighbourhoodSearch::replan(const Deadline& deadline) {
   return true;
 }
 
-std::uint64_t NeighbourhoodSearch::tryOne(const Deadline& deadline, const Accept& accept) {
-  if (!pick()) {
+std::int64_t NeighbourhoodSearch::tryOne(const Deadline& deadline, const Accept& accept,
+                                         double temperature) {
+  if (!pick(temperature)) {
     picker_.reward(0, 0);
     return 0;
   }
@@ -120,8 +133,10 @@ std::uint64_t NeighbourhoodSearch::tryOne(const Deadline& deadline, const Accept
       table_.insertTail(member.robot, plan_.paths[member.robot], member.kept);
     }
   }
-  const std::uint64_t gain = taken ? budget_ : 0;
-  picker_.reward(gain, expansions_ - expansions_before);
+  const std::int64_t gain =
+      taken ? static_cast<std::int64_t>(budget_) - static_cast<std::int64_t>(loss_) : 0;
+  picker_.reward(static_cast<std::uint64_t>(std::max<std::int64_t>(0, gain)),
+                 expansions_ - expansions_before);
   return gain;
 }
 
