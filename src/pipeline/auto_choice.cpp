@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <tuple>
 #include <vector>
 
 #include "split_mapf/split/split_spec.h"
@@ -12,11 +13,24 @@ namespace {
 // Plans that cost more than so many times the best expected are no choice while others are: at
 // once, but refinement would take long to make up for them.
 constexpr double kComparable = 1.25;
+// From so many meetings a robot on (InstanceFeatures::head_on), after 10 s of refinement, plans
+// that began as loose ones cost 2.5 (room-64-64-8, 300 robots) to 3 % less (warehouse-10-20-10-2-1,
+// 1000), or as much as others (maze-32-32-4, 100); in halls and on open ground they only take
+// longer.
+constexpr double kHeadOn = 0.9;
+// And the first plan may cost so many times the best.
+constexpr double kComparableLoose = 1.5;
 // Methods that take at most this many times the least are as soon as it: the best plan decides.
 // Waiting longer for a better first plan does not pay, as refinement makes a better one meanwhile.
 constexpr double kAsSoon = 1.2;
-// Of two processors a split keeps so much busy.
+// A loose plan may be later by so much, which nobody notices.
+constexpr double kUnnoticedSec = 0.02;
+// Plans that are expected to cost so little more than the best are as good: `conflict_optimizer`
+// and `prioritized` place robots by the same code, and mostly in the same way.
+constexpr double kAsGood = 1.005;
+// Of each further processor a split uses so much, and a solver that places robots on all threads.
 constexpr double kParallelShare = 0.8;
+constexpr double kPlacingShare = 0.35;
 
 // What takes less is not worth a split, whatever the model says of it.
 constexpr double kLeastToSplitSec = 0.05;
@@ -29,6 +43,10 @@ std::string inSeconds(double seconds) {
 
 double wallSeconds(const MethodEstimate& method, std::uint32_t threads) {
   const auto pieces = std::max<std::size_t>(1, parseSplitSpec(method.split).time_ratios.size());
+  if (pieces == 1) {
+    const bool places = method.solver == "conflict_optimizer" || method.solver == "prioritized";
+    return places ? method.seconds / (1 + kPlacingShare * (threads - 1)) : method.seconds;
+  }
   const auto workers = static_cast<double>(std::min<std::size_t>(pieces, threads));
   return method.seconds / (1 + kParallelShare * (workers - 1));
 }
@@ -60,6 +78,35 @@ std::vector<MethodEstimate> candidates(const AutoQuestion& question, const CostM
   return result;
 }
 
+bool startsLoose(const AutoQuestion& question) {
+  return question.refines && question.objective == Objective::kSumOfCosts &&
+         question.features.head_on >= kHeadOn;
+}
+
+bool costsLess(const MethodEstimate& a, const MethodEstimate& b) { return a.excess < b.excess; }
+bool isSooner(const MethodEstimate& a, const MethodEstimate& b) { return a.seconds < b.seconds; }
+
+/// What is soon before what is not, that by time; of what is soon the loose plan where it is
+/// wanted, then those as good as the best, in the model's order.
+void sortBestFirst(std::vector<MethodEstimate>& methods, bool loose) {
+  const double soonest_sec = std::min_element(methods.begin(), methods.end(), isSooner)->seconds;
+  const double soon_sec = kAsSoon * soonest_sec;
+  const auto last_soon =
+      std::stable_partition(methods.begin(), methods.end(),
+                            [&](const auto& method) { return method.seconds <= soon_sec; });
+  const double least = std::min_element(methods.begin(), last_soon, costsLess)->excess;
+  const double good = kAsGood * (1 + least) - 1;
+  const auto rank = [=](const MethodEstimate& method) {
+    const bool wanted = loose && method.solver == kLoosePlans && method.split == "none" &&
+                        method.seconds <= soon_sec + kUnnoticedSec;
+    const bool soon = method.seconds <= soon_sec;
+    return std::make_tuple(!wanted, !soon, soon ? std::max(good, method.excess) : method.seconds);
+  };
+  std::stable_sort(
+      methods.begin(), methods.end(),
+      [&](const MethodEstimate& a, const MethodEstimate& b) { return rank(a) < rank(b); });
+}
+
 }  // namespace
 
 AutoChoice chooseMethod(const AutoQuestion& question, const CostModel& model) {
@@ -68,25 +115,14 @@ AutoChoice chooseMethod(const AutoQuestion& question, const CostModel& model) {
     return {question.solver == "auto" ? question.solvers.front() : question.solver,
             question.split == "auto" ? "none" : question.split, "nothing is known of it", 0};
   }
-  const auto best = std::min_element(
-      methods.begin(), methods.end(),
-      [](const MethodEstimate& a, const MethodEstimate& b) { return a.excess < b.excess; });
-  const double most = kComparable * (1 + best->excess) - 1;
+  const bool loose = startsLoose(question);
+  const double least = std::min_element(methods.begin(), methods.end(), costsLess)->excess;
+  const double most = (loose ? kComparableLoose : kComparable) * (1 + least) - 1;
   const double last_resort_sec = lastResortSec(methods);
   methods.erase(std::remove_if(methods.begin(), methods.end(),
                                [most](const MethodEstimate& m) { return m.excess > most; }),
                 methods.end());
-  const auto soonest = std::min_element(
-      methods.begin(), methods.end(),
-      [](const MethodEstimate& a, const MethodEstimate& b) { return a.seconds < b.seconds; });
-  const double soon_sec = kAsSoon * soonest->seconds;
-  std::stable_sort(methods.begin(), methods.end(),
-                   [soon_sec](const MethodEstimate& a, const MethodEstimate& b) {
-                     const bool a_soon = a.seconds <= soon_sec;
-                     const bool b_soon = b.seconds <= soon_sec;
-                     if (a_soon != b_soon) return a_soon;
-                     return a_soon ? a.excess < b.excess : a.seconds < b.seconds;
-                   });
+  sortBestFirst(methods, loose);
   const MethodEstimate& first = methods.front();
   AutoChoice choice{first.solver, question.split == "auto" ? first.split : question.split,
                     inSeconds(first.seconds) + " expected",

@@ -17,10 +17,13 @@ struct AutoQuestion {
   std::string solver;                ///< "auto", or the solver that was asked for
   std::vector<std::string> solvers;  ///< that there are
   std::string split;                 ///< "auto", or the split that was asked for
+  bool refines = false;              ///< whether the first plan is only where refinement begins
 };
 
 /// Called when the time is nearly over: complete, and soon done where others are not.
 constexpr const char* kLastResort = "lacam";
+/// Its plans leave robots room and time, and refine to better ones where robots meet head-on.
+constexpr const char* kLoosePlans = "lacam";
 
 /// What `auto` stands for on this instance.
 struct AutoChoice {
@@ -32,7 +35,8 @@ struct AutoChoice {
 
 /// Chooses, among the methods whose plans are expected to cost no more than a quarter above the
 /// best, the one that is expected to give its first plan soonest; of those about as soon, the one
-/// whose plan is expected to cost least. Deterministic.
+/// whose plan is expected to cost least. Where robots often meet head-on in narrow places and the
+/// sum of costs is to be refined, kLoosePlans instead, if it is about as soon. Deterministic.
 AutoChoice chooseMethod(const AutoQuestion& question, const CostModel& model);
 
 }  // namespace split_mapf

@@ -10,7 +10,7 @@
 namespace split_mapf {
 namespace {
 
-constexpr std::size_t kTerms = 6;
+constexpr std::size_t kTerms = 7;
 
 /// As scripts/fit_cost_model takes them.
 std::array<double, kTerms> termsOf(const InstanceFeatures& features) {
@@ -19,7 +19,8 @@ std::array<double, kTerms> termsOf(const InstanceFeatures& features) {
           std::log(features.cells),
           std::log(1.0 + features.makespan_bound),
           std::log(1.0 + static_cast<double>(features.conflicting)),
-          std::log(features.largest_group)};
+          std::log(features.largest_group),
+          features.head_on};
 }
 
 std::vector<double> weightsOf(const YAML::Node& method, const char* name) {

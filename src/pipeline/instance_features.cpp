@@ -103,6 +103,49 @@ std::uint32_t largestGroup(std::uint32_t robots, const std::vector<std::uint64_t
   return *std::max_element(size.begin(), size.end());
 }
 
+/// Whether there is no way past a vertex between its neighbours: two that have no other in common.
+/// The corner of a hall has two neighbours as well, but robots pass it by.
+bool isNarrow(const Graph& graph, Vertex v) {
+  const VertexRange around = graph.neighbours(v);
+  if (around.size() != 2) return false;
+  const VertexRange others = graph.neighbours(around.begin()[0]);
+  return std::none_of(others.begin(), others.end(), [&](Vertex other) {
+    return other != v && graph.adjacent(other, around.begin()[1]);
+  });
+}
+
+/// Pairs of robots that go different ways along an edge with a narrow end, over all such edges.
+std::uint64_t opposedPairs(const Graph& graph, const std::vector<Path>& paths) {
+  // Of a narrow vertex: how often robots come from its neighbours, and go there.
+  struct Edge {
+    std::uint32_t in = 0;
+    std::uint32_t out = 0;
+  };
+  std::vector<std::array<Edge, 2>> edges(graph.size());
+  std::vector<char> narrow(graph.size());
+  for (Vertex v = 0; v < graph.size(); ++v) narrow[v] = isNarrow(graph, v) ? 1 : 0;
+  const auto edgeOf = [&](Vertex at, Vertex other) -> Edge& {
+    return edges[at][*graph.neighbours(at).begin() == other ? 0 : 1];
+  };
+  for (const Path& path : paths) {
+    for (std::size_t t = 1; t < path.size(); ++t) {
+      const Vertex from = path[t - 1];
+      const Vertex to = path[t];
+      // An edge between two narrow vertices is counted at the lower one.
+      if (narrow[from] != 0 && (from < to || narrow[to] == 0)) {
+        ++edgeOf(from, to).out;
+      } else if (narrow[to] != 0) {
+        ++edgeOf(to, from).in;
+      }
+    }
+  }
+  std::uint64_t pairs = 0;
+  for (const auto& both : edges) {
+    for (const Edge& edge : both) pairs += std::uint64_t{edge.in} * edge.out;
+  }
+  return pairs;
+}
+
 }  // namespace
 
 Path shortestPath(const Instance& instance, std::uint32_t robot) {
@@ -129,6 +172,10 @@ InstanceFeatures measureFeatures(const Instance& instance, const std::vector<Pat
   const std::vector<std::uint64_t> pairs = SharedWalk(features.cells, paths).findConflicts();
   features.conflicting = pairs.size();
   features.largest_group = largestGroup(features.robots, pairs);
+  const double times = static_cast<double>(features.robots) * features.makespan_bound;
+  if (times > 0) {
+    features.head_on = static_cast<double>(opposedPairs(instance.graph(), paths)) / times;
+  }
   return features;
 }
 

@@ -163,6 +163,7 @@ void PlanRun::choose() {
   question.solver = request_.solver;
   question.solvers = solvers_.names();
   question.split = report_.split;
+  question.refines = request_.asked.refine_sec > 0;
   const AutoChoice choice = chooseMethod(question, CostModel::shipped());
   if (request_.solver == "auto") {
     request_.solver = choice.solver;

@@ -100,7 +100,7 @@ Sweep readSweep(const CommandLine& line) {
 void writeHeader(std::ostream& out) {
   out << "map,scen,agents,objective,solver,split,threads,status,seconds,cpu_seconds,first_plan_s,"
          "makespan,makespan_lower_bound,sum_of_costs,sum_of_costs_lower_bound,optimal,cells,"
-         "conflicting,largest_group\n";
+         "conflicting,largest_group,head_on\n";
 }
 
 /// A field of a CSV file (RFC 4180).
@@ -171,10 +171,11 @@ class Bench {
          << report.makespan_lower_bound << ',' << report.sum_of_costs << ','
          << report.sum_of_costs_lower_bound << ',' << (report.optimal ? 1 : 0) << ',';
     if (report.cut_off_robot) {
-      out_ << grid->size() << ",,";
+      out_ << grid->size() << ",,,";
     } else {
       const InstanceFeatures features = measureFeatures(instance);
-      out_ << features.cells << ',' << features.conflicting << ',' << features.largest_group;
+      out_ << features.cells << ',' << features.conflicting << ',' << features.largest_group << ','
+           << features.head_on;
     }
     out_ << std::endl;  // a sweep is long: every row is worth having at once
   }

@@ -10,16 +10,16 @@ namespace {
 // Times grow with the number of robots, but for `sturdy`; `rough` is a little sooner than that, but
 // makes worse plans; `hopeless` is sooner than all and its plans cost twice the bound.
 constexpr const char* kModel = R"(methods:
-  - {solver: quick, split: none, objective: makespan, log_seconds: [-9, 2, 0, 0, 0, 0],
-     log_excess: [-9, 0, 0, 0, 0, 0]}
-  - {solver: quick, split: 4t, objective: makespan, log_seconds: [-8, 1.8, 0, 0, 0, 0],
-     log_excess: [-9, 0, 0, 0, 0, 0]}
-  - {solver: sturdy, split: none, objective: makespan, log_seconds: [0, 0, 0, 0, 0, 0],
-     log_excess: [-9, 0, 0, 0, 0, 0]}
-  - {solver: rough, split: none, objective: makespan, log_seconds: [-0.1, 0, 0, 0, 0, 0],
-     log_excess: [-2, 0, 0, 0, 0, 0]}
-  - {solver: hopeless, split: none, objective: makespan, log_seconds: [-20, 0, 0, 0, 0, 0],
-     log_excess: [0, 0, 0, 0, 0, 0]}
+  - {solver: quick, split: none, objective: makespan, log_seconds: [-9, 2, 0, 0, 0, 0, 0],
+     log_excess: [-9, 0, 0, 0, 0, 0, 0]}
+  - {solver: quick, split: 4t, objective: makespan, log_seconds: [-8, 1.8, 0, 0, 0, 0, 0],
+     log_excess: [-9, 0, 0, 0, 0, 0, 0]}
+  - {solver: sturdy, split: none, objective: makespan, log_seconds: [0, 0, 0, 0, 0, 0, 0],
+     log_excess: [-9, 0, 0, 0, 0, 0, 0]}
+  - {solver: rough, split: none, objective: makespan, log_seconds: [-0.1, 0, 0, 0, 0, 0, 0],
+     log_excess: [-2, 0, 0, 0, 0, 0, 0]}
+  - {solver: hopeless, split: none, objective: makespan, log_seconds: [-20, 0, 0, 0, 0, 0, 0],
+     log_excess: [0, 0, 0, 0, 0, 0, 0]}
 )";
 
 AutoQuestion question(std::uint32_t robots, std::uint32_t threads) {
@@ -53,6 +53,27 @@ TEST(AutoChoice, MoreProcessorsMakeASplitPay) {
   EXPECT_EQ(chooseMethod(asked, model).split, "none");
   asked.threads = 4;
   EXPECT_EQ(chooseMethod(asked, model).split, "4t");
+}
+
+TEST(AutoChoice, ALoosePlanBeforeRefinementWhereRobotsMeetHeadOn) {
+  const CostModel model(R"(methods:
+  - {solver: tight, split: none, objective: sum_of_costs, log_seconds: [-0.4, 0, 0, 0, 0, 0, 1],
+     log_excess: [-1, 0, 0, 0, 0, 0, 0]}
+  - {solver: lacam, split: none, objective: sum_of_costs, log_seconds: [0.5, 0, 0, 0, 0, 0, 0],
+     log_excess: [-0.3, 0, 0, 0, 0, 0, 0]}
+)");
+  AutoQuestion asked = question(100, 1);
+  asked.objective = Objective::kSumOfCosts;
+  asked.solvers = {"tight", "lacam"};
+  asked.refines = true;
+  asked.features.head_on = 0.1;
+  EXPECT_EQ(chooseMethod(asked, model).solver, "tight") << "far sooner";
+  asked.features.head_on = 0.8;
+  EXPECT_EQ(chooseMethod(asked, model).solver, "tight") << "as soon, and robots can pass";
+  asked.features.head_on = 1.0;
+  EXPECT_EQ(chooseMethod(asked, model).solver, "lacam");
+  asked.refines = false;
+  EXPECT_EQ(chooseMethod(asked, model).solver, "tight") << "as the first plan is the last";
 }
 
 TEST(AutoChoice, KeepsWhatWasAskedFor) {

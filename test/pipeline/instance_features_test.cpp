@@ -44,6 +44,19 @@ TEST(InstanceFeatures, RobotsWithRoomHaveNoConflicts) {
   EXPECT_EQ(features.largest_group, 1U);
 }
 
+TEST(InstanceFeatures, RobotsMeetHeadOnOnlyWhereTheyCannotPass) {
+  const Instance corridor = test::instanceFromAscii({"ab...cd"}, {"dc...ba"});
+  const InstanceFeatures narrow = measureFeatures(corridor);
+  EXPECT_EQ(narrow.makespan_bound, 6U);
+  // On the first and the last edge one robot goes either way; on the four between them two do.
+  EXPECT_DOUBLE_EQ(narrow.head_on, (1 + 4 * 4 + 1) / (4.0 * 6));
+  const Instance hall =
+      test::instanceFromAscii({"a...c", ".....", "b...d"}, {"c...a", ".....", "d...b"});
+  EXPECT_EQ(measureFeatures(hall).head_on, 0) << "its corners are not narrow";
+  const Instance bend = test::instanceFromAscii({"a..", "##.", "##b"}, {"b..", "##.", "##a"});
+  EXPECT_DOUBLE_EQ(measureFeatures(bend).head_on, 4 / (2.0 * 4)) << "this one is";
+}
+
 /// Every pair compared at every step, and groups by giving all of one the name of the other.
 void expectConflictsOfPairs(const Instance& instance, const std::vector<Path>& paths) {
   std::uint64_t conflicting = 0;

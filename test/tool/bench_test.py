@@ -28,8 +28,8 @@ class BenchTest(CommandTest):
         for row in rows:
             self.assertEqual((row["status"], row["objective"], row["map"]),
                              ("solved", "sum_of_costs", "p.map"))
-            self.assertEqual((row["cells"], row["conflicting"], row["largest_group"]),
-                             ("12", "1", "2"))
+            self.assertEqual((row["cells"], row["conflicting"], row["largest_group"],
+                              row["head_on"]), ("12", "1", "2", "0"))
             self.assertEqual(row["sum_of_costs_lower_bound"], "6" if row["agents"] == "2" else "9")
             self.assertGreaterEqual(int(row["sum_of_costs"]), int(row["sum_of_costs_lower_bound"]))
             self.assertGreaterEqual(float(row["seconds"]), float(row["first_plan_s"]))

@@ -17,6 +17,10 @@ struct InstanceFeatures {
   std::uint64_t sum_bound = 0;       ///< sum of shortest paths [steps]
   std::uint64_t conflicting = 0;     ///< pairs of robots whose paths conflict
   std::uint32_t largest_group = 0;   ///< robots that conflicts connect, at most
+  /// How often a robot would meet another head-on in a cell where neither can pass, if all set out
+  /// at random moments within the makespan bound: the sum over the edges of such cells of the
+  /// product of the numbers of robots that go either way, over robots and makespan bound.
+  double head_on = 0;
 };
 
 /// The path on which a robot is imagined. @pre it is not cut off. Several threads may walk the
