@@ -56,6 +56,8 @@ void polish(const Instance& instance, const LacamSettings& settings, const Deadl
     return result.low_level_expansions < limit;
   };
   result.plan = replanSingly(instance, *std::move(result.plan), settings.polish, deadline, go_on);
+  // Who waited for robots that have earlier paths now need not wait any longer.
+  result.plan = compact(*result.plan, instance.graph().size());
 }
 
 void reportFailure(LacamSearch::Outcome outcome, const LacamSettings& settings,
