@@ -11,8 +11,9 @@
 
 namespace split_mapf {
 
-/// The plan that the workers of a refinement share. It is valid at every moment. Workers keep copies of it and offer changes against the version that
-/// they saw; a change that conflicts with what others have changed since is refused. Thread-safe.
+/// The plan that the workers of a refinement share. It is valid at every moment. Workers keep
+/// copies of it and offer changes against the version that they saw; a change that conflicts with
+/// what others have changed since is refused. Thread-safe.
 class Incumbent {
  public:
   /// @pre the plan is valid and its paths end at their arrivals.

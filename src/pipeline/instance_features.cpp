@@ -124,7 +124,7 @@ std::uint64_t opposedPairs(const Graph& graph, const std::vector<Path>& paths) {
   std::vector<std::array<Edge, 2>> edges(graph.size());
   std::vector<char> narrow(graph.size());
   for (Vertex v = 0; v < graph.size(); ++v) narrow[v] = isNarrow(graph, v) ? 1 : 0;
-  const auto edgeOf = [&](Vertex at, Vertex other) -> Edge& {
+  const auto edge_of = [&](Vertex at, Vertex other) -> Edge& {
     return edges[at][*graph.neighbours(at).begin() == other ? 0 : 1];
   };
   for (const Path& path : paths) {
@@ -133,9 +133,9 @@ std::uint64_t opposedPairs(const Graph& graph, const std::vector<Path>& paths) {
       const Vertex to = path[t];
       // An edge between two narrow vertices is counted at the lower one.
       if (narrow[from] != 0 && (from < to || narrow[to] == 0)) {
-        ++edgeOf(from, to).out;
+        ++edge_of(from, to).out;
       } else if (narrow[to] != 0) {
-        ++edgeOf(to, from).in;
+        ++edge_of(to, from).in;
       }
     }
   }

@@ -139,9 +139,8 @@ class Refinement {
 
   void searchNeighbourhoods() {
     if (workers_.empty()) employWorkers();
-    // For makespan the next descent begins with what the search leaves.
-    const Annealing* const annealing =
-        options_.objective == Objective::kSumOfCosts ? &annealing_ : nullptr;
+    // Between descents there is no telling how much time is left for this.
+    const Annealing* const annealing = mayDescend() ? nullptr : &annealing_;
     const Deadline round = deadline_.within(kRoundSec);
     std::vector<Executor::Job> jobs;
     for (const auto& worker : workers_) {
