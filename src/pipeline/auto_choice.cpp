@@ -28,9 +28,11 @@ constexpr double kUnnoticedSec = 0.02;
 // Plans that are expected to cost so little more than the best are as good: `conflict_optimizer`
 // and `prioritized` place robots by the same code, and mostly in the same way.
 constexpr double kAsGood = 1.005;
-// Of each further processor a split uses so much, and a solver that places robots on all threads.
+// Of each further processor a split uses so much.
 constexpr double kParallelShare = 0.8;
-constexpr double kPlacingShare = 0.35;
+// What solvers that place robots on all threads gain by two of them. Whatever the number of threads
+// is, as the choice of a solver, and so the plan, must not depend on it.
+constexpr double kPlacingGain = 1.35;
 
 // What takes less is not worth a split, whatever the model says of it.
 constexpr double kLeastToSplitSec = 0.05;
@@ -45,7 +47,7 @@ double wallSeconds(const MethodEstimate& method, std::uint32_t threads) {
   const auto pieces = std::max<std::size_t>(1, parseSplitSpec(method.split).time_ratios.size());
   if (pieces == 1) {
     const bool places = method.solver == "conflict_optimizer" || method.solver == "prioritized";
-    return places ? method.seconds / (1 + kPlacingShare * (threads - 1)) : method.seconds;
+    return places ? method.seconds / kPlacingGain : method.seconds;
   }
   const auto workers = static_cast<double>(std::min<std::size_t>(pieces, threads));
   return method.seconds / (1 + kParallelShare * (workers - 1));

@@ -76,6 +76,21 @@ TEST(AutoChoice, ALoosePlanBeforeRefinementWhereRobotsMeetHeadOn) {
   EXPECT_EQ(chooseMethod(asked, model).solver, "tight") << "as the first plan is the last";
 }
 
+TEST(AutoChoice, TheSolverDoesNotDependOnTheThreads) {
+  // Whoever took credit for 4 processors would place robots here.
+  const CostModel model(R"(methods:
+  - {solver: conflict_optimizer, split: none, objective: makespan,
+     log_seconds: [0.7, 0, 0, 0, 0, 0, 0], log_excess: [-1, 0, 0, 0, 0, 0, 0]}
+  - {solver: lacam, split: none, objective: makespan, log_seconds: [0, 0, 0, 0, 0, 0, 0],
+     log_excess: [-1, 0, 0, 0, 0, 0, 0]}
+)");
+  for (const std::uint32_t threads : {1U, 2U, 4U, 32U}) {
+    AutoQuestion asked = question(100, threads);
+    asked.solvers = {"conflict_optimizer", "lacam"};
+    EXPECT_EQ(chooseMethod(asked, model).solver, "lacam") << threads;
+  }
+}
+
 TEST(AutoChoice, KeepsWhatWasAskedFor) {
   const CostModel model(kModel);
   AutoQuestion asked = question(1000, 2);
