@@ -80,8 +80,10 @@ std::vector<MethodEstimate> candidates(const AutoQuestion& question, const CostM
   return result;
 }
 
+/// Whether the pieces of a split do better with loose plans was not measured.
 bool startsLoose(const AutoQuestion& question) {
-  return question.refines && question.objective == Objective::kSumOfCosts &&
+  const bool whole = question.split == "auto" || question.split == "none";
+  return question.refines && whole && question.objective == Objective::kSumOfCosts &&
          question.features.head_on >= kHeadOn;
 }
 

@@ -72,6 +72,10 @@ TEST(AutoChoice, ALoosePlanBeforeRefinementWhereRobotsMeetHeadOn) {
   EXPECT_EQ(chooseMethod(asked, model).solver, "tight") << "as soon, and robots can pass";
   asked.features.head_on = 1.0;
   EXPECT_EQ(chooseMethod(asked, model).solver, "lacam");
+  asked.split = "8t";
+  EXPECT_EQ(chooseMethod(asked, model).solver, "tight") << "its pieces are packed as ever";
+  asked.split = "none";
+  EXPECT_EQ(chooseMethod(asked, model).solver, "lacam");
   asked.refines = false;
   EXPECT_EQ(chooseMethod(asked, model).solver, "tight") << "as the first plan is the last";
 }
