@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <tuple>
 #include <vector>
 
@@ -90,15 +91,15 @@ bool startsLoose(const AutoQuestion& question) {
 bool costsLess(const MethodEstimate& a, const MethodEstimate& b) { return a.excess < b.excess; }
 bool isSooner(const MethodEstimate& a, const MethodEstimate& b) { return a.seconds < b.seconds; }
 
-/// What is soon before what is not, that by time; of what is soon the loose plan where it is
-/// wanted, then those as good as the best, in the model's order.
+/// The loose plan where it is wanted; then what is soon, those as good as the best in the model's
+/// order and the others by cost; then what is not, by time.
 void sortBestFirst(std::vector<MethodEstimate>& methods, bool loose) {
   const double soonest_sec = std::min_element(methods.begin(), methods.end(), isSooner)->seconds;
   const double soon_sec = kAsSoon * soonest_sec;
-  const auto last_soon =
-      std::stable_partition(methods.begin(), methods.end(),
-                            [&](const auto& method) { return method.seconds <= soon_sec; });
-  const double least = std::min_element(methods.begin(), last_soon, costsLess)->excess;
+  double least = std::numeric_limits<double>::infinity();
+  for (const MethodEstimate& method : methods) {
+    if (method.seconds <= soon_sec) least = std::min(least, method.excess);
+  }
   const double good = kAsGood * (1 + least) - 1;
   const auto rank = [=](const MethodEstimate& method) {
     const bool wanted = loose && method.solver == kLoosePlans && method.split == "none" &&
