@@ -2,11 +2,12 @@
 
 #include <algorithm>
 
+#include "solver/search/delayed_robots.h"
+
 namespace split_mapf {
 
 std::uint32_t Neighbourhood::keptUntil(const Path& path) const {
-  const std::uint32_t t = std::min(event, static_cast<std::uint32_t>(path.size() - 1));
-  return t > reach ? beginOfStay(path, t - reach) : 0;
+  return split_mapf::keptUntil(path, event, reach);
 }
 
 NeighbourhoodPicker::NeighbourhoodPicker(const Instance& instance, std::uint64_t seed)
@@ -25,39 +26,6 @@ void NeighbourhoodPicker::add(std::uint32_t robot, std::vector<std::uint32_t>& r
   if (marks_[robot] == pick_number_) return;
   marks_[robot] = pick_number_;
   robots.push_back(robot);
-}
-
-std::uint32_t NeighbourhoodPicker::drawDelayed(const Plan& plan) {
-  const auto n = instance_.robots();
-  const auto first = static_cast<std::uint32_t>(drawBelow(engine_, n));
-  constexpr int kCandidates = 3;
-  std::uint32_t best = first;
-  std::uint64_t most = 0;
-  int found = 0;
-  for (std::uint32_t i = 0; i < n && found < kCandidates; ++i) {
-    const std::uint32_t robot = (first + i) % n;
-    const std::uint64_t delay = plan.paths[robot].size() - 1 - instance_.shortestLength(robot);
-    if (delay == 0) continue;
-    ++found;
-    // Great delays are likelier, not certain.
-    const std::uint64_t score = drawBelow(engine_, delay + 1);
-    if (score >= most) {
-      most = score;
-      best = robot;
-    }
-  }
-  return best;
-}
-
-/// A step that brings the robot no nearer to its goal; any step where there is none.
-std::uint32_t NeighbourhoodPicker::drawLostStep(const Path& path, const DistanceTable& distances) {
-  const auto first = static_cast<std::uint32_t>(drawBelow(engine_, path.size()));
-  const auto size = static_cast<std::uint32_t>(path.size());
-  for (std::uint32_t i = 0; i < size; ++i) {
-    const std::uint32_t t = (first + i) % size;
-    if (t > 0 && distances(path[t]) >= distances(path[t - 1])) return t;
-  }
-  return first;
 }
 
 std::uint32_t NeighbourhoodPicker::drawStep(const Path& path, const Neighbourhood& picked) {
@@ -146,9 +114,9 @@ void NeighbourhoodPicker::pick(const Plan& plan, const PathTable& table, Neighbo
   ++pick_number_;
   const std::size_t way = ways_.draw(engine_);
   const std::size_t size = std::min<std::size_t>(kSizes[sizes_.draw(engine_)], instance_.robots());
-  const std::uint32_t robot = drawDelayed(plan);
+  const std::uint32_t robot = drawDelayed(instance_, plan, engine_);
   picked.reach = kReaches[reaches_.draw(engine_)];
-  picked.event = drawLostStep(plan.paths[robot], instance_.distances(robot));
+  picked.event = drawLostStep(plan.paths[robot], instance_.distances(robot), engine_);
   picked.sideways = drawBelow(engine_, in_vain_ + instance_.robots()) < in_vain_;
   // Sideways it is the first robots' new ways that make the others look for new ones.
   picked.keeps = keeps_.draw(engine_) == 1 && !picked.sideways;

@@ -54,8 +54,6 @@ class NeighbourhoodPicker {
   static constexpr std::array<std::uint32_t, 5> kSizes = {1, 2, 4, 8, 16};
   static constexpr std::array<std::uint32_t, 3> kReaches = {16, 64, kForever};
 
-  std::uint32_t drawDelayed(const Plan& plan);
-  std::uint32_t drawLostStep(const Path& path, const DistanceTable& distances);
   void add(std::uint32_t robot, std::vector<std::uint32_t>& robots);
   void addOccupants(const PathTable& table, Vertex v, std::uint32_t from, std::uint32_t to,
                     std::size_t size, std::vector<std::uint32_t>& robots);

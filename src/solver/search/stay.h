@@ -48,4 +48,11 @@ inline std::uint32_t beginOfStay(const Path& path, std::uint32_t t) {
   return t;
 }
 
+/// The step up to which a path is kept by who may change it from `reach` steps before step `event`
+/// on, or before its arrival if that comes first: one at which it comes to a vertex.
+inline std::uint32_t keptUntil(const Path& path, std::uint32_t event, std::uint32_t reach) {
+  const std::uint32_t t = std::min(event, static_cast<std::uint32_t>(path.size() - 1));
+  return t > reach ? beginOfStay(path, t - reach) : 0;
+}
+
 }  // namespace split_mapf

@@ -1,0 +1,37 @@
+#include "solver/search/delayed_robots.h"
+
+namespace split_mapf {
+
+std::uint32_t drawDelayed(const Instance& instance, const Plan& plan, RandomEngine& engine) {
+  const auto n = instance.robots();
+  const auto first = static_cast<std::uint32_t>(drawBelow(engine, n));
+  constexpr int kCandidates = 3;
+  std::uint32_t best = first;
+  std::uint64_t most = 0;
+  int found = 0;
+  for (std::uint32_t i = 0; i < n && found < kCandidates; ++i) {
+    const std::uint32_t robot = (first + i) % n;
+    const std::uint64_t delay = plan.paths[robot].size() - 1 - instance.shortestLength(robot);
+    if (delay == 0) continue;
+    ++found;
+    // Great delays are likelier, not certain.
+    const std::uint64_t score = drawBelow(engine, delay + 1);
+    if (score >= most) {
+      most = score;
+      best = robot;
+    }
+  }
+  return best;
+}
+
+std::uint32_t drawLostStep(const Path& path, const DistanceTable& distances, RandomEngine& engine) {
+  const auto first = static_cast<std::uint32_t>(drawBelow(engine, path.size()));
+  const auto size = static_cast<std::uint32_t>(path.size());
+  for (std::uint32_t i = 0; i < size; ++i) {
+    const std::uint32_t t = (first + i) % size;
+    if (t > 0 && distances(path[t]) >= distances(path[t - 1])) return t;
+  }
+  return first;
+}
+
+}  // namespace split_mapf
