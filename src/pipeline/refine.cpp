@@ -14,6 +14,7 @@
 #include "pipeline/refine_worker.h"
 #include "pipeline/window_descent.h"
 #include "solver/search/placement.h"
+#include "solver/search/retiming.h"
 
 namespace split_mapf {
 namespace {
@@ -162,6 +163,7 @@ class Refinement {
   void employWorkers() {
     const std::uint32_t latest =
         options_.objective == Objective::kMakespan ? makespanOf(plan_) : kForever - 1;
+    placeWaits(instance_.graph().size(), plan_);
     incumbent_ = std::make_unique<Incumbent>(plan_);
     for (std::uint32_t i = 0; i < options_.threads; ++i) {
       const std::uint64_t seed = options_.seed * options_.threads + i;

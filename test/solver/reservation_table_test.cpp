@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "split_mapf/core/random.h"
@@ -141,6 +142,41 @@ TEST(ReservationTable, TailsComeAndGo) {
     fresh.insert(0, parked);
     fresh.insert(1, before);
     expectSameStays(table, fresh);
+  }
+}
+
+TEST(ReservationTable, HeadsGoToo) {
+  const Path parked = {3, 2};
+  const Path path = {10, 10, 11, 12, 10, 9};
+  for (const std::uint32_t kept : {0U, 2U, 3U, 4U}) {
+    SCOPED_TRACE(kept);
+    ReservationTable table(kVertices);
+    table.insert(0, parked);
+    table.insert(1, path);
+    table.removeTail(1, path, kept);
+    table.removeHead(1, path, kept);
+    expectBits(table, {parked});
+    ReservationTable fresh(kVertices);
+    fresh.insert(0, parked);
+    expectSameStays(table, fresh);
+  }
+}
+
+TEST(ReservationTable, FindsTheEndsOfGaps) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    RandomEngine engine(seed);
+    ReservationTable table(2 * kMiddle);
+    table.insert(0, wander(engine));
+    const Vertex v = kMiddle + static_cast<Vertex>(drawBelow(engine, 3));
+    const auto t = static_cast<std::uint32_t>(drawBelow(engine, 200));
+    const auto last = t + static_cast<std::uint32_t>(drawBelow(engine, 200));
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::uint32_t comes = t + 1;
+    while (comes <= last && !table.isTaken(v, comes)) ++comes;
+    EXPECT_EQ(table.takenAfter(v, t, last), comes);
+    std::uint32_t since = t;
+    while (since > 0 && !table.isTaken(v, since - 1)) --since;
+    EXPECT_EQ(table.freeSince(v, t), since);
   }
 }
 

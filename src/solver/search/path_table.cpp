@@ -64,6 +64,14 @@ void PathTable::insertTail(std::uint32_t robot, const Path& path, std::uint32_t 
   });
 }
 
+void PathTable::removeHead(std::uint32_t robot, const Path& path, std::uint32_t from) {
+  for (std::uint32_t begin = 0; begin <= from; ++begin) {
+    if (begin > 0 && path[begin] == path[begin - 1]) continue;
+    stays_[path[begin]].erase(find(robot, path[begin], begin));
+    timelines_[path[begin]].clear();
+  }
+}
+
 const Timeline& PathTable::timeline(Vertex v) const {
   static const Timeline undisturbed = {{0, kForever, 0, 0}};
   if (stays_[v].empty()) return undisturbed;

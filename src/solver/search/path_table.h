@@ -25,6 +25,8 @@ class PathTable {
   void removeTail(std::uint32_t robot, const Path& path, std::uint32_t from);
   /// Undoes removeTail(), with a path that is the same up to `from` and leads on from there.
   void insertTail(std::uint32_t robot, const Path& path, std::uint32_t from);
+  /// Removes what removeTail() left.
+  void removeHead(std::uint32_t robot, const Path& path, std::uint32_t from);
 
   const std::vector<Stay>& at(Vertex v) const { return stays_[v]; }
   /// The timeline that all visits at `v` make. Kept until a path through `v` comes or goes: a

@@ -37,12 +37,45 @@ bool ReservationTable::isFree(const Path& path, std::uint32_t from) const {
   return true;
 }
 
-/// From step `from` on; a robot is alone where it is, so its bits are all unset or all set.
-void ReservationTable::flip(const Path& path, std::uint32_t from) {
-  const auto size = static_cast<std::uint32_t>(path.size());
-  for (std::uint32_t t = from; t < size; ++t) {
+void ReservationTable::removeHead(std::uint32_t robot, const Path& path, std::uint32_t from) {
+  paths_.removeHead(robot, path, from);
+  flipSteps(path, 0, from + 1);
+}
+
+std::uint32_t ReservationTable::takenAfter(Vertex v, std::uint32_t t, std::uint32_t last) const {
+  std::uint64_t steps = ~std::uint64_t{0} << (t % 64) << 1U;
+  for (std::uint32_t word = t / 64; word <= last / 64; ++word) {
+    const std::uint64_t seen = taken(v, word) & steps;
+    if (seen != 0) {
+      return std::min(64 * word + static_cast<std::uint32_t>(__builtin_ctzll(seen)), last + 1);
+    }
+    steps = ~std::uint64_t{0};
+  }
+  return last + 1;
+}
+
+std::uint32_t ReservationTable::freeSince(Vertex v, std::uint32_t t) const {
+  if (t == 0) return 0;
+  std::uint64_t steps = ~std::uint64_t{0} >> (63 - (t - 1) % 64);
+  for (std::uint32_t word = (t - 1) / 64 + 1; word-- > 0;) {
+    const std::uint64_t seen = taken(v, word) & steps;
+    if (seen != 0) return 64 * (word + 1) - static_cast<std::uint32_t>(__builtin_clzll(seen));
+    steps = ~std::uint64_t{0};
+  }
+  return 0;
+}
+
+/// Steps from .. to-1. A robot is alone where it is, so its bits are all unset or all set.
+void ReservationTable::flipSteps(const Path& path, std::uint32_t from, std::uint32_t to) {
+  for (std::uint32_t t = from; t < to; ++t) {
     bits_[std::size_t{path[t]} * words_ + t / 64] ^= std::uint64_t{1} << (t % 64);
   }
+}
+
+/// From step `from` on.
+void ReservationTable::flip(const Path& path, std::uint32_t from) {
+  const auto size = static_cast<std::uint32_t>(path.size());
+  flipSteps(path, from, size);
   // At its goal for good.
   std::uint64_t* const row = bits_.data() + std::size_t{path.back()} * words_;
   if (size % 64 != 0) row[size / 64] ^= ~std::uint64_t{0} << (size % 64);

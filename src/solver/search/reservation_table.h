@@ -24,6 +24,7 @@ class ReservationTable {
   /// As PathTable's: at step `from` the robot stays where it is, what comes later is removed.
   void removeTail(std::uint32_t robot, const Path& path, std::uint32_t from);
   void insertTail(std::uint32_t robot, const Path& path, std::uint32_t from);
+  void removeHead(std::uint32_t robot, const Path& path, std::uint32_t from);
 
   const PathTable& paths() const { return paths_; }
   const std::vector<Stay>& at(Vertex v) const { return paths_.at(v); }
@@ -34,6 +35,10 @@ class ReservationTable {
   }
 
   bool isTaken(Vertex v, std::uint32_t t) const { return (taken(v, t / 64) >> (t % 64) & 1U) != 0; }
+  /// The first step after `t` at which somebody is at `v`; last + 1 if nobody is until step `last`.
+  std::uint32_t takenAfter(Vertex v, std::uint32_t t, std::uint32_t last) const;
+  /// The step from which on nobody was at `v` until step t - 1; `t` if somebody was then.
+  std::uint32_t freeSince(Vertex v, std::uint32_t t) const;
   /// Whether nobody is in the way of a robot that stays on the path after step `from`, and at its
   /// end for good. @pre of the robot's own visits none is known that begins later than `from`.
   bool isFree(const Path& path, std::uint32_t from) const;
@@ -48,6 +53,7 @@ class ReservationTable {
   static std::uint64_t everAfter(std::uint64_t last_word) { return 0 - (last_word >> 63U); }
   void coverSteps(std::size_t steps);
   void flip(const Path& path, std::uint32_t from);
+  void flipSteps(const Path& path, std::uint32_t from, std::uint32_t to);
 
   PathTable paths_;
   std::uint32_t words_ = 1;  // of a vertex
