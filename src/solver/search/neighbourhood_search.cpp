@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/search/delayed_robots.h"
+
 namespace split_mapf {
 
 NeighbourhoodSearch::NeighbourhoodSearch(const Instance& instance, Plan plan,
@@ -13,6 +15,7 @@ NeighbourhoodSearch::NeighbourhoodSearch(const Instance& instance, Plan plan,
       picker_(instance, seed),
       engine_(seed),
       search_(instance.graph()),
+      chain_(instance, latest_arrival),
       plan_(std::move(plan)),
       table_(instance.graph().size()) {
   for (std::uint32_t i = 0; i < instance.robots(); ++i) table_.insert(i, plan_.paths[i]);
@@ -70,6 +73,7 @@ Path NeighbourhoodSearch::search(const Member& member, std::uint32_t latest_arri
   expansions_ += answer.expansions;
   if (!answer.path.empty()) {
     std::copy_n(before.begin(), member.kept, answer.path.begin());
+    waits_.place(table_, answer.path, member.kept);
   }
   return std::move(answer.path);
 }
@@ -112,8 +116,18 @@ bool NeighbourhoodSearch::replan(const Deadline& deadline) {
   return true;
 }
 
-std::int64_t NeighbourhoodSearch::tryOne(const Deadline& deadline, const Accept& accept,
-                                         double temperature) {
+/// The old paths take the places of the new ones.
+void NeighbourhoodSearch::undo() {
+  for (std::size_t i = 0; i < changes_.size(); ++i) {
+    table_.removeTail(changes_[i].robot, changes_[i].path, members_[i].kept);
+  }
+  for (const Member& member : members_) {
+    table_.insertTail(member.robot, plan_.paths[member.robot], member.kept);
+  }
+}
+
+std::int64_t NeighbourhoodSearch::tryNeighbourhood(const Deadline& deadline, const Accept& accept,
+                                                   double temperature) {
   if (!pick(temperature)) {
     picker_.reward(0, 0);
     return 0;
@@ -126,17 +140,49 @@ std::int64_t NeighbourhoodSearch::tryOne(const Deadline& deadline, const Accept&
   if (taken) {
     for (PathChange& change : changes_) plan_.paths[change.robot] = std::move(change.path);
   } else {
-    for (std::size_t i = 0; i < changes_.size(); ++i) {
-      table_.removeTail(changes_[i].robot, changes_[i].path, members_[i].kept);
-    }
-    for (const Member& member : members_) {
-      table_.insertTail(member.robot, plan_.paths[member.robot], member.kept);
-    }
+    undo();
   }
   const std::int64_t gain =
       taken ? static_cast<std::int64_t>(budget_) - static_cast<std::int64_t>(loss_) : 0;
   picker_.reward(static_cast<std::uint64_t>(std::max<std::int64_t>(0, gain)),
                  expansions_ - expansions_before);
+  return gain;
+}
+
+std::int64_t NeighbourhoodSearch::tryChain(const Deadline& deadline, const Accept& accept,
+                                           double temperature) {
+  ChainStart start;
+  start.robot = drawDelayed(instance_, plan_, engine_);
+  // Its waits may be far from what keeps it.
+  start.path = soonestAlong(table_, plan_.paths[start.robot]);
+  start.event = drawLostStep(start.path, instance_.distances(start.robot), engine_);
+  start.reach = kChainReaches[chain_reaches_.draw(engine_)];
+  start.searches = kChainSearches[chain_searches_.draw(engine_)];
+  start.loss = static_cast<std::uint32_t>(drawLoss(temperature));
+  const std::uint64_t expansions_before = chain_.expansions();
+  const bool placed = chain_.run(start, plan_, table_, deadline);
+  const bool taken = placed && accept(chain_.changes());
+  if (taken) {
+    for (PathChange& change : chain_.changes()) plan_.paths[change.robot] = std::move(change.path);
+  } else if (placed) {
+    chain_.undo(plan_, table_);
+  }
+  const std::int64_t gain = taken ? chain_.gain() : 0;
+  const double rate = gainRate(static_cast<std::uint64_t>(std::max<std::int64_t>(0, gain)),
+                               chain_.expansions() - expansions_before);
+  chain_reaches_.reward(rate);
+  chain_searches_.reward(rate);
+  return gain;
+}
+
+std::int64_t NeighbourhoodSearch::tryOne(const Deadline& deadline, const Accept& accept,
+                                         double temperature) {
+  const std::uint64_t expansions_before = expansions();
+  const std::int64_t gain = methods_.draw(engine_) == kChain
+                                ? tryChain(deadline, accept, temperature)
+                                : tryNeighbourhood(deadline, accept, temperature);
+  methods_.reward(gainRate(static_cast<std::uint64_t>(std::max<std::int64_t>(0, gain)),
+                           expansions() - expansions_before));
   return gain;
 }
 

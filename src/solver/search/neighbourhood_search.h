@@ -1,9 +1,13 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
+#include "solver/search/adaptive_choice.h"
+#include "solver/search/ejection_chain.h"
 #include "solver/search/gap_search.h"
 #include "solver/search/neighbourhood.h"
 #include "split_mapf/core/deadline.h"
@@ -13,19 +17,14 @@
 
 namespace split_mapf {
 
-/// A robot's new path.
-struct PathChange {
-  std::uint32_t robot = 0;
-  Path path;
-};
-
-/// Large-neighbourhood search for sum of costs on a valid plan: takes some robots out, from some
-/// step on, and plans them anew, one after another in a random order, within what they cost
-/// together before. A result of equal cost counts too, as it leads across plateaus. The plan is
-/// valid after every step, and its cost grows by no more than the caller allows. Deterministic but
-/// for the deadline. Not thread-safe.
-/// Source: Li et al., IJCAI 2021; deviations, see NeighbourhoodPicker, and that worse plans may be
-/// accepted.
+/// Large-neighbourhood search for sum of costs on a valid plan. Either a delayed robot takes an
+/// earlier path and a chain of ejections makes room for it (see EjectionChain), or some robots are
+/// taken out, from some step on, and planned anew, one after another in a random order, within what
+/// they cost together before. What gains more for its effort is tried more often. A result of equal
+/// cost counts too, as it leads across plateaus. The plan is valid after every step, and its cost
+/// grows by no more than the caller allows. Deterministic but for the deadline. Not thread-safe.
+/// Source: Li et al., IJCAI 2021; deviations: the chains, see NeighbourhoodPicker, that worse plans
+/// may be accepted, and where waits go (see WaitPlacer).
 class NeighbourhoodSearch {
  public:
   /// Asked before a change is taken over; false leaves the plan as it was.
@@ -36,14 +35,15 @@ class NeighbourhoodSearch {
   NeighbourhoodSearch(const Instance& instance, Plan plan, std::uint32_t latest_arrival,
                       std::uint64_t seed);
 
-  /// Tries one neighbourhood; returns how many steps it gained: less than none where it may become
-  /// worse. @param temperature  mean of what it may lose, drawn as in simulated annealing [steps].
+  /// Tries one chain or neighbourhood; returns how many steps it gained: less than none where it
+  /// may become worse. @param temperature  mean of what it may lose, drawn as in simulated
+  /// annealing [steps].
   std::int64_t tryOne(const Deadline& deadline, const Accept& accept, double temperature = 0);
   /// Puts a robot on another path. @pre the plan is valid again after the last of such changes.
   void replace(std::uint32_t robot, Path path);
 
   const Plan& plan() const { return plan_; }
-  std::uint64_t expansions() const { return expansions_; }
+  std::uint64_t expansions() const { return expansions_ + chain_.expansions(); }
 
  private:
   /// A robot of the neighbourhood and the part of its path that it keeps.
@@ -53,8 +53,15 @@ class NeighbourhoodSearch {
     std::uint32_t cost = 0;       // its arrival before
     std::uint32_t set_aside = 0;  // what no other member may use of the budget
   };
+  enum Method { kChain, kNeighbourhood, kMethods };
+  static constexpr std::array<std::size_t, 2> kChainSearches = {8, 32};
+  static constexpr std::array<std::uint32_t, 3> kChainReaches = {4, 16, 64};
+
+  std::int64_t tryChain(const Deadline& deadline, const Accept& accept, double temperature);
+  std::int64_t tryNeighbourhood(const Deadline& deadline, const Accept& accept, double temperature);
   bool pick(double temperature);
   std::uint64_t drawLoss(double temperature);
+  void undo();
   bool replan(const Deadline& deadline);
   void releaseWhoIsFree();
   std::uint32_t latestArrival(const Member& member) const;
@@ -64,10 +71,15 @@ class NeighbourhoodSearch {
   std::uint32_t latest_arrival_;
   NeighbourhoodPicker picker_;
   RandomEngine engine_;
+  AdaptiveChoice<kMethods> methods_;
+  AdaptiveChoice<kChainSearches.size()> chain_searches_;
+  AdaptiveChoice<kChainReaches.size()> chain_reaches_;
   GapSearch search_;
+  WaitPlacer waits_;
+  EjectionChain chain_;
   Plan plan_;
   ReservationTable table_;
-  std::uint64_t expansions_ = 0;
+  std::uint64_t expansions_ = 0;  // by neighbourhoods
   Neighbourhood picked_;
   std::vector<Member> members_;      // of the current neighbourhood, as are all of these
   std::vector<PathChange> changes_;  // of the first members
