@@ -23,12 +23,12 @@ struct RefineOptions {
 
 /// Improves a valid plan until the deadline, or until its cost is the lower bound: for makespan by
 /// conflict optimisation one step below the plan's makespan and by windows of the plan solved anew,
-/// in turns, then, for either objective, by large-neighbourhood search on whole paths for sum of
-/// costs. Where makespan is no matter any more it goes through worse plans on the way, see
+/// in turns, then, for either objective, by chains of ejections and large-neighbourhood search for
+/// sum of costs. Where makespan is no matter any more it goes through worse plans on the way, see
 /// Annealing; what it shows and returns never gets worse. Calls `improved` from the calling thread
 /// with every better plan, a few times a second at most. Returns the best plan. The clock cuts it,
-/// so two runs may differ. Source: Li et al., IJCAI 2021; optimistic commits after Chan et al. 2024
-/// (arXiv 2402.01961).
+/// so two runs may differ. Source: Li et al., IJCAI 2021; chains after Glover 1996; optimistic
+/// commits after Chan et al. 2024 (arXiv 2402.01961).
 Plan refine(const Instance& instance, Plan plan, const RefineOptions& options, Executor& executor,
             const Deadline& deadline, const std::function<void(const Plan&)>& improved);
 
