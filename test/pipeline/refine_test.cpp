@@ -10,18 +10,13 @@
 #include "split_mapf/solver/conflict_optimizer.h"
 #include "split_mapf/solver/ecbs.h"
 #include "support/ascii_grid.h"
+#include "support/placed_plan.h"
 #include "support/small_instances.h"
 
 namespace split_mapf {
 namespace {
 
 Instance crowded() { return test::generatedInstance(16, 0.1, 70); }
-
-Plan firstPlan(const Instance& instance) {
-  SolverOptions options;
-  options.objective = Objective::kSumOfCosts;
-  return *ConflictOptimizerSolver(options).solve(instance, Deadline()).plan;
-}
 
 RefineOptions optionsFor(Objective objective, std::uint32_t threads) {
   RefineOptions options;
@@ -32,7 +27,7 @@ RefineOptions optionsFor(Objective objective, std::uint32_t threads) {
 
 TEST(Refine, OnlyImprovesAndIsValidAtEveryMoment) {
   const Instance instance = crowded();
-  const Plan first = firstPlan(instance);
+  const Plan first = test::planWithDelays(instance);
   Executor executor(3);
   std::uint64_t best = sumOfCostsOf(first);
   int improvements = 0;
@@ -94,7 +89,7 @@ TEST(Refine, KeepsTheMakespanWhileItImprovesTheSum) {
 
 TEST(Refine, AnExpiredDeadlineReturnsThePlanAsItIs) {
   const Instance instance = crowded();
-  const Plan first = firstPlan(instance);
+  const Plan first = test::planWithDelays(instance);
   Executor executor(1);
   const Plan plan = refine(instance, first, optionsFor(Objective::kSumOfCosts, 1), executor,
                            Deadline(0), [](const Plan&) { FAIL(); });
@@ -122,7 +117,7 @@ TEST(Incumbent, RefusesWhatConflictsWithLaterChanges) {
 
 TEST(NeighbourhoodSearch, IsValidAfterEveryChangeAndNeverWorse) {
   const Instance instance = crowded();
-  const Plan first = firstPlan(instance);
+  const Plan first = test::planWithDelays(instance);
   NeighbourhoodSearch search(instance, first, kForever - 1, 3);
   std::uint64_t cost = sumOfCostsOf(first);
   int changed = 0;
@@ -154,7 +149,7 @@ TEST(NeighbourhoodSearch, IsValidAfterEveryChangeAndNeverWorse) {
 
 TEST(NeighbourhoodSearch, LosesNoMoreThanTheTemperatureAllows) {
   const Instance instance = crowded();
-  NeighbourhoodSearch search(instance, firstPlan(instance), kForever - 1, 3);
+  NeighbourhoodSearch search(instance, test::planWithDelays(instance), kForever - 1, 3);
   const auto always = [](const std::vector<PathChange>&) { return true; };
   auto cost = static_cast<std::int64_t>(sumOfCostsOf(search.plan()));
   constexpr double kTemperature = 4;
@@ -186,7 +181,7 @@ TEST(Annealing, GainsAloneAtFirstAndNothingButGainsInTheEnd) {
 
 TEST(NeighbourhoodPicker, TakesADelayedRobotAndEachRobotOnce) {
   const Instance instance = crowded();
-  const Plan plan = firstPlan(instance);
+  const Plan plan = test::planWithDelays(instance);
   PathTable table(instance.graph().size());
   for (std::uint32_t i = 0; i < instance.robots(); ++i) table.insert(i, plan.paths[i]);
   NeighbourhoodPicker picker(instance, 1);

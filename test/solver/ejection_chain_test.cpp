@@ -11,41 +11,17 @@
 #include "solver/search/delayed_robots.h"
 #include "split_mapf/core/random.h"
 #include "split_mapf/core/validate.h"
-#include "split_mapf/solver/conflict_optimizer.h"
 #include "support/ascii_grid.h"
+#include "support/placed_plan.h"
 #include "support/small_instances.h"
 
 namespace split_mapf {
 namespace {
 
-Plan planOf(const Instance& instance) {
-  SolverOptions options;
-  options.objective = Objective::kSumOfCosts;
-  return *ConflictOptimizerSolver(options).solve(instance, Deadline()).plan;
-}
-
-ReservationTable tableOf(const Instance& instance, const Plan& plan) {
-  ReservationTable table(instance.graph().size());
-  for (std::uint32_t i = 0; i < instance.robots(); ++i) table.insert(i, plan.paths[i]);
-  return table;
-}
-
 /// The table holds the paths of the plan and nothing else.
 void expectHolds(const ReservationTable& table, const Instance& instance, const Plan& plan) {
-  const ReservationTable fresh = tableOf(instance, plan);
-  const std::uint32_t words = std::max(table.lastChange(), fresh.lastChange()) / 64 + 2;
-  for (Vertex v = 0; v < instance.graph().size(); ++v) {
-    ASSERT_EQ(table.at(v).size(), fresh.at(v).size()) << "vertex " << v;
-    for (std::size_t i = 0; i < fresh.at(v).size(); ++i) {
-      ASSERT_EQ(table.at(v)[i].robot, fresh.at(v)[i].robot);
-      ASSERT_EQ(table.at(v)[i].begin, fresh.at(v)[i].begin);
-      ASSERT_EQ(table.at(v)[i].end, fresh.at(v)[i].end);
-      ASSERT_EQ(table.at(v)[i].next, fresh.at(v)[i].next);
-    }
-    for (std::uint32_t word = 0; word < words; ++word) {
-      ASSERT_EQ(table.taken(v, word), fresh.taken(v, word)) << "vertex " << v;
-    }
-  }
+  const std::uint32_t vertices = instance.graph().size();
+  test::expectSame(table, ReservationTable(vertices, plan), vertices);
 }
 
 ChainStart drawStart(const Instance& instance, const Plan& plan, const ReservationTable& table,
@@ -66,8 +42,8 @@ TEST(EjectionChain, LeavesAValidPlanWithinItsBudgetOrEverythingAsItWas) {
   std::size_t longest = 0;
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const Instance instance = test::generatedInstance(12, 0.15, 50, seed);
-    Plan plan = planOf(instance);
-    ReservationTable table = tableOf(instance, plan);
+    Plan plan = test::planWithDelays(instance);
+    ReservationTable table(instance.graph().size(), plan);
     const std::uint32_t latest = makespanOf(plan) + 2;
     EjectionChain chain(instance, latest);
     RandomEngine engine(seed);
@@ -109,7 +85,7 @@ TEST(EjectionChain, GivesTheDelayedRobotWayAndTheOtherANewPath) {
                               {"....a", ".....", ".b..."});  // a behind it
   const Plan plan = {{{0, 0, 1, 2, 3, 4}, {1, 1, 6, 11}}};
   ASSERT_TRUE(validate(instance, plan).empty());
-  ReservationTable table = tableOf(instance, plan);
+  ReservationTable table(instance.graph().size(), plan);
   EjectionChain chain(instance, kForever - 1);
   ChainStart start;
   start.robot = 0;
@@ -128,8 +104,8 @@ TEST(EjectionChain, GivesTheDelayedRobotWayAndTheOtherANewPath) {
 
 TEST(EjectionChain, AnExpiredDeadlineLeavesEverythingAsItWas) {
   const Instance instance = test::generatedInstance(12, 0.15, 50);
-  const Plan plan = planOf(instance);
-  ReservationTable table = tableOf(instance, plan);
+  const Plan plan = test::planWithDelays(instance);
+  ReservationTable table(instance.graph().size(), plan);
   EjectionChain chain(instance, kForever - 1);
   RandomEngine engine(1);
   const Deadline expired(0);

@@ -8,6 +8,7 @@
 
 #include "split_mapf/core/random.h"
 #include "support/meeting.h"
+#include "support/placed_plan.h"
 
 namespace split_mapf {
 namespace {
@@ -62,18 +63,6 @@ TEST(ReservationTable, BitsSayWhoIsWhereWhateverComesAndGoes) {
     table.remove(gone, paths[gone]);
     paths[gone].clear();
     expectBits(table, paths);
-  }
-}
-
-void expectSameStays(const ReservationTable& a, const ReservationTable& b) {
-  for (Vertex v = 0; v < kVertices; ++v) {
-    ASSERT_EQ(a.at(v).size(), b.at(v).size()) << "vertex " << v;
-    for (std::size_t i = 0; i < a.at(v).size(); ++i) {
-      EXPECT_EQ(a.at(v)[i].begin, b.at(v)[i].begin);
-      EXPECT_EQ(a.at(v)[i].end, b.at(v)[i].end);
-      EXPECT_EQ(a.at(v)[i].robot, b.at(v)[i].robot);
-      EXPECT_EQ(a.at(v)[i].next, b.at(v)[i].next);
-    }
   }
 }
 
@@ -141,7 +130,7 @@ TEST(ReservationTable, TailsComeAndGo) {
     ReservationTable fresh(kVertices);
     fresh.insert(0, parked);
     fresh.insert(1, before);
-    expectSameStays(table, fresh);
+    test::expectSame(table, fresh, kVertices);
   }
 }
 
@@ -158,7 +147,7 @@ TEST(ReservationTable, HeadsGoToo) {
     expectBits(table, {parked});
     ReservationTable fresh(kVertices);
     fresh.insert(0, parked);
-    expectSameStays(table, fresh);
+    test::expectSame(table, fresh, kVertices);
   }
 }
 

@@ -9,24 +9,12 @@
 
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/validate.h"
-#include "split_mapf/solver/conflict_optimizer.h"
 #include "support/meeting.h"
+#include "support/placed_plan.h"
 #include "support/small_instances.h"
 
 namespace split_mapf {
 namespace {
-
-Plan planOf(const Instance& instance) {
-  SolverOptions options;
-  options.objective = Objective::kSumOfCosts;
-  return *ConflictOptimizerSolver(options).solve(instance, Deadline()).plan;
-}
-
-ReservationTable tableOf(const Instance& instance, const Plan& plan) {
-  ReservationTable table(instance.graph().size());
-  for (std::uint32_t i = 0; i < instance.robots(); ++i) table.insert(i, plan.paths[i]);
-  return table;
-}
 
 Path routeOf(Path path) {
   path.erase(std::unique(path.begin(), path.end()), path.end());
@@ -107,8 +95,8 @@ TEST(WaitPlacer, WaitsWhereItIsCheapestOfAllTimings) {
   int waiting = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     const Instance instance = test::generatedInstance(6, 0.1, 12, seed);
-    Plan plan = planOf(instance);
-    ReservationTable table = tableOf(instance, plan);
+    Plan plan = test::planWithDelays(instance);
+    ReservationTable table(instance.graph().size(), plan);
     for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {
       Path& path = plan.paths[robot];
       const Path before = path;
@@ -133,8 +121,8 @@ TEST(WaitPlacer, WaitsWhereItIsCheapestOfAllTimings) {
 
 TEST(WaitPlacer, KeepsWhatComesBefore) {
   const Instance instance = test::generatedInstance(16, 0.1, 70);
-  Plan plan = planOf(instance);
-  ReservationTable table = tableOf(instance, plan);
+  Plan plan = test::planWithDelays(instance);
+  ReservationTable table(instance.graph().size(), plan);
   WaitPlacer placer;
   int changed = 0;
   for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {
@@ -156,8 +144,8 @@ TEST(SoonestAlong, IsAtNoVertexLaterAndInNobodysWay) {
   int sooner = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const Instance instance = test::generatedInstance(16, 0.1, 70, seed);
-    Plan plan = planOf(instance);
-    ReservationTable table = tableOf(instance, plan);
+    Plan plan = test::planWithDelays(instance);
+    ReservationTable table(instance.graph().size(), plan);
     WaitPlacer placer;
     for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {
       Path& path = plan.paths[robot];

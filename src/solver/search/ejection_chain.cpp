@@ -62,14 +62,9 @@ void EjectionChain::eject(std::uint32_t robot, const Path& by, std::uint32_t rea
 
 Path EjectionChain::search(const Link& link, std::uint32_t latest_arrival, bool may_eject,
                            const Deadline& deadline) {
-  EvictionQuery query;
-  query.start = link.path[link.kept];
-  query.departure = link.kept;
-  query.under_way = true;
-  query.distances = &instance_.distances(link.robot);
-  query.placed = table_;
-  query.weights = may_eject ? &weights_ : nullptr;
-  query.latest_arrival = latest_arrival;
+  const EvictionQuery query = {
+      queryFrom(link.path, link.kept, instance_.distances(link.robot), *table_, latest_arrival),
+      may_eject ? &weights_ : nullptr};
   GapAnswer answer = search_.search(query, deadline);
   expansions_ += answer.expansions;
   if (!answer.path.empty()) std::copy_n(link.path.begin(), link.kept, answer.path.begin());
@@ -82,7 +77,7 @@ bool EjectionChain::placeNext(const ChainStart& start, const Deadline& deadline)
   const bool may_eject = waiting_.size() < searches_left_;
   --searches_left_;
   const std::size_t index = waiting_.front();
-  const bool is_first = links_[index].robot == start.robot && links_.size() == 1;
+  const bool is_first = links_.size() == 1;
   const std::int64_t most = oldCost(links_[index]) + (is_first ? -1 : spare_);
   const std::int64_t latest = std::min<std::int64_t>(most, latest_arrival_);
   if (latest < 0) return false;

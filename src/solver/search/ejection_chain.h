@@ -37,7 +37,7 @@ struct ChainStart {
 /// deadline. Keeps its memory between calls; not thread-safe.
 /// Source: ejection chains, Glover, Discrete Applied Math. 1996; for robots within a fixed horizon,
 /// the CG:SHOP 2021 winners' conflict optimisation (see Placement). Ours: a budget in place of the
-/// horizon, and windows, which make a link of the chain a tenth of the work.
+/// horizon, and windows, which make a chain a third of the work.
 class EjectionChain {
  public:
   /// @param latest_arrival  nobody arrives after it. The instance outlives this object.

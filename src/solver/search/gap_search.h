@@ -25,6 +25,19 @@ struct GapQuery {
   std::uint32_t latest_arrival = kForever - 1;  ///< longest path allowed [steps]
 };
 
+/// The question of a robot that keeps its path until step `kept`.
+inline GapQuery queryFrom(const Path& path, std::uint32_t kept, const DistanceTable& distances,
+                          const ReservationTable& placed, std::uint32_t latest_arrival) {
+  GapQuery query;
+  query.start = path[kept];
+  query.distances = &distances;
+  query.placed = &placed;
+  query.departure = kept;
+  query.under_way = true;
+  query.latest_arrival = latest_arrival;
+  return query;
+}
+
 /// The answer; `path` is empty when there is none (or when the deadline came: `interrupted`).
 struct GapAnswer {
   Path path;

@@ -17,9 +17,7 @@ NeighbourhoodSearch::NeighbourhoodSearch(const Instance& instance, Plan plan,
       search_(instance.graph()),
       chain_(instance, latest_arrival),
       plan_(std::move(plan)),
-      table_(instance.graph().size()) {
-  for (std::uint32_t i = 0; i < instance.robots(); ++i) table_.insert(i, plan_.paths[i]);
-}
+      table_(instance.graph().size(), plan_) {}
 
 void NeighbourhoodSearch::replace(std::uint32_t robot, Path path) {
   table_.remove(robot, plan_.paths[robot]);
@@ -62,13 +60,8 @@ bool NeighbourhoodSearch::pick(double temperature) {
 Path NeighbourhoodSearch::search(const Member& member, std::uint32_t latest_arrival,
                                  const Deadline& deadline) {
   const Path& before = plan_.paths[member.robot];
-  GapQuery query;
-  query.start = before[member.kept];
-  query.departure = member.kept;
-  query.under_way = true;
-  query.distances = &instance_.distances(member.robot);
-  query.placed = &table_;
-  query.latest_arrival = latest_arrival;
+  const GapQuery query =
+      queryFrom(before, member.kept, instance_.distances(member.robot), table_, latest_arrival);
   GapAnswer answer = search_.search(query, deadline);
   expansions_ += answer.expansions;
   if (!answer.path.empty()) {
@@ -159,7 +152,6 @@ std::int64_t NeighbourhoodSearch::tryChain(const Deadline& deadline, const Accep
   start.reach = kChainReaches[chain_reaches_.draw(engine_)];
   start.searches = kChainSearches[chain_searches_.draw(engine_)];
   start.loss = static_cast<std::uint32_t>(drawLoss(temperature));
-  const std::uint64_t expansions_before = chain_.expansions();
   const bool placed = chain_.run(start, plan_, table_, deadline);
   const bool taken = placed && accept(chain_.changes());
   if (taken) {
@@ -167,22 +159,22 @@ std::int64_t NeighbourhoodSearch::tryChain(const Deadline& deadline, const Accep
   } else if (placed) {
     chain_.undo(plan_, table_);
   }
-  const std::int64_t gain = taken ? chain_.gain() : 0;
-  const double rate = gainRate(static_cast<std::uint64_t>(std::max<std::int64_t>(0, gain)),
-                               chain_.expansions() - expansions_before);
-  chain_reaches_.reward(rate);
-  chain_searches_.reward(rate);
-  return gain;
+  return taken ? chain_.gain() : 0;
 }
 
 std::int64_t NeighbourhoodSearch::tryOne(const Deadline& deadline, const Accept& accept,
                                          double temperature) {
   const std::uint64_t expansions_before = expansions();
-  const std::int64_t gain = methods_.draw(engine_) == kChain
-                                ? tryChain(deadline, accept, temperature)
-                                : tryNeighbourhood(deadline, accept, temperature);
-  methods_.reward(gainRate(static_cast<std::uint64_t>(std::max<std::int64_t>(0, gain)),
-                           expansions() - expansions_before));
+  const bool chain = methods_.draw(engine_) == kChain;
+  const std::int64_t gain = chain ? tryChain(deadline, accept, temperature)
+                                  : tryNeighbourhood(deadline, accept, temperature);
+  const double rate = gainRate(static_cast<std::uint64_t>(std::max<std::int64_t>(0, gain)),
+                               expansions() - expansions_before);
+  methods_.reward(rate);
+  if (chain) {
+    chain_reaches_.reward(rate);
+    chain_searches_.reward(rate);
+  }
   return gain;
 }
 

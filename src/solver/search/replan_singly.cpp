@@ -51,8 +51,7 @@ Plan replanSingly(const Instance& instance, Plan plan, std::uint64_t passes,
                   const std::function<bool(std::uint64_t expansions)>& go_on) {
   trimToArrival(plan);
   if (passes == 0) return plan;
-  ReservationTable table(instance.graph().size());
-  for (std::uint32_t i = 0; i < instance.robots(); ++i) table.insert(i, plan.paths[i]);
+  ReservationTable table(instance.graph().size(), plan);
   GapSearch search(instance.graph());
   bool spent = false;
   const FindPath find = [&](std::uint32_t robot, std::uint32_t latest_arrival) {

@@ -6,6 +6,11 @@ namespace split_mapf {
 
 ReservationTable::ReservationTable(std::uint32_t vertices) : paths_(vertices), bits_(vertices, 0) {}
 
+ReservationTable::ReservationTable(std::uint32_t vertices, const Plan& plan)
+    : ReservationTable(vertices) {
+  for (std::uint32_t i = 0; i < plan.paths.size(); ++i) insert(i, plan.paths[i]);
+}
+
 void ReservationTable::insert(std::uint32_t robot, const Path& path) {
   coverSteps(path.size());
   paths_.insert(robot, path);

@@ -15,6 +15,8 @@ namespace split_mapf {
 class ReservationTable {
  public:
   explicit ReservationTable(std::uint32_t vertices);
+  /// Of robots 0, 1, ... @pre the plan has no conflicts and its paths end at their arrivals.
+  ReservationTable(std::uint32_t vertices, const Plan& plan);
 
   /// @pre the robot has no path in the table, and no other is where this one is; the path ends at
   /// its arrival.

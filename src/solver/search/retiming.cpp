@@ -88,11 +88,9 @@ void WaitPlacer::place(const ReservationTable& placed, Path& path, std::uint32_t
 }
 
 void placeWaits(std::uint32_t vertices, Plan& plan) {
-  const auto robots = static_cast<std::uint32_t>(plan.paths.size());
-  ReservationTable table(vertices);
-  for (std::uint32_t i = 0; i < robots; ++i) table.insert(i, plan.paths[i]);
+  ReservationTable table(vertices, plan);
   WaitPlacer waits;
-  for (std::uint32_t i = 0; i < robots; ++i) {
+  for (std::uint32_t i = 0; i < plan.paths.size(); ++i) {
     table.remove(i, plan.paths[i]);
     waits.place(table, plan.paths[i]);
     table.insert(i, plan.paths[i]);
