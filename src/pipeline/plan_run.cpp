@@ -310,7 +310,7 @@ std::optional<Plan> PlanRun::solve(const Decomposition& tree) {
         request_.split_options.replan_passes.value_or(least ? 0 : kReplanPasses);
     if (passes == 0) return plan;
     log_.enterStage("replan");
-    plan = replanSingly(instance_, std::move(plan), passes, deadline_);
+    plan = replanSingly(instance_, std::move(plan), {passes, report_.threads, nullptr}, deadline_);
   }
   return plan;
 }

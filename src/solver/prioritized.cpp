@@ -94,9 +94,13 @@ bool PrioritizedRun::repair(const std::vector<std::uint32_t>& left_over, std::ui
 }
 
 void PrioritizedRun::polish() {
-  plan_ =
-      replanSingly(instance_, std::move(plan_), settings_.polish, effort_.deadline(),
-                   [this](std::uint64_t expansions) { return effort_.spend(expansions, false); });
+  ReplanEffort effort;
+  effort.passes = settings_.polish;
+  effort.threads = std::max(1U, options_.threads);
+  effort.go_on = [this](std::uint64_t expansions, std::uint64_t) {
+    return effort_.spend(expansions, false);
+  };
+  plan_ = replanSingly(instance_, std::move(plan_), effort, effort_.deadline());
 }
 
 }  // namespace

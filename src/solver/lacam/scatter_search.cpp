@@ -45,17 +45,20 @@ void Crossings::remove(const Path& path) {
   if (!path.empty()) ended_[path.back()] = kNever;
 }
 
-std::uint32_t Crossings::count(Vertex from, Vertex to, std::uint32_t t) const {
-  std::uint32_t count = ended_[to] < t ? 1 : 0;
-  const std::vector<std::uint32_t>& there = visits_[to];
-  auto visit = std::lower_bound(there.begin(), there.end(), t << kFromBits);
-  for (; visit != there.end() && *visit >> kFromBits == t; ++visit) ++count;
-  const std::vector<std::uint32_t>& here = visits_[from];
-  if (!here.empty() && !there.empty()) {
-    const std::uint32_t swap = keyOf(to, from, t);
-    auto other = std::lower_bound(here.begin(), here.end(), swap);
-    for (; other != here.end() && *other == swap; ++other) ++count;
-  }
+std::array<std::uint32_t, Crossings::kDirections> Crossings::arrivals(Vertex v,
+                                                                      std::uint32_t t) const {
+  std::array<std::uint32_t, kDirections> counts{};
+  const std::vector<std::uint32_t>& keys = visits_[v];
+  auto key = std::lower_bound(keys.begin(), keys.end(), t << kFromBits);
+  for (; key != keys.end() && *key >> kFromBits == t; ++key) ++counts[*key % kDirections];
+  return counts;
+}
+
+std::uint32_t Crossings::count(Vertex v, std::uint32_t t) const {
+  std::uint32_t count = ended_[v] < t ? 1 : 0;
+  const std::vector<std::uint32_t>& keys = visits_[v];
+  auto key = std::lower_bound(keys.begin(), keys.end(), t << kFromBits);
+  for (; key != keys.end() && *key >> kFromBits == t; ++key) ++count;
   return count;
 }
 
@@ -90,13 +93,18 @@ Path ScatterSearch::find(std::uint32_t robot) {
 void ScatterSearch::expand(std::uint32_t index) {
   ++expansions_;
   const State state = queue_[index];
+  const std::uint32_t arrival = state.time + 1;
+  // Who comes here from where the robot goes runs into it.
+  const std::array<std::uint32_t, Crossings::kDirections> oncoming =
+      table_.arrivals(state.vertex, arrival);
+  std::size_t direction = 0;
   for (const Vertex u : instance_.graph().neighbours(state.vertex)) {
+    const std::uint32_t meets = oncoming[direction++];
     if (closed_[u] == search_number_) continue;
-    const std::uint32_t length = state.time + 1 + (*distances_)(u);
+    const std::uint32_t length = arrival + (*distances_)(u);
     if (length > shortest_ + margin_) continue;
-    const std::uint32_t collisions =
-        state.collisions + table_.count(state.vertex, u, state.time + 1);
-    queue_.push({u, state.time + 1, collisions, index, BucketQueue<State>::kNoState},
+    const std::uint32_t collisions = state.collisions + meets + table_.count(u, arrival);
+    queue_.push({u, arrival, collisions, index, BucketQueue<State>::kNoState},
                 std::size_t{collisions} * kCollisionSteps + length - shortest_);
   }
 }

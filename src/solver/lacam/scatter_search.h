@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -13,17 +15,20 @@ namespace split_mapf {
 /// thread-safe.
 class Crossings {
  public:
+  static constexpr std::size_t kDirections = 4;
+
   explicit Crossings(const Graph& graph);
 
   void insert(const Path& path);
   /// @pre the path is there, or empty.
   void remove(const Path& path);
-  /// How many paths somebody runs into who comes from `from` to `to` at step `t`: there at the same
-  /// time, coming the other way, or ended there before.
-  std::uint32_t count(Vertex from, Vertex to, std::uint32_t t) const;
+  /// How many paths come to `v` at step `t`, by the neighbour that they come from.
+  std::array<std::uint32_t, kDirections> arrivals(Vertex v, std::uint32_t t) const;
+  /// How many paths come to `v` at step `t`, or ended there before.
+  std::uint32_t count(Vertex v, std::uint32_t t) const;
 
  private:
-  static constexpr std::uint32_t kFromBits = 3;
+  static constexpr std::uint32_t kFromBits = 2;
   static constexpr std::uint32_t kNever = 0xffffffffU;
 
   std::uint32_t keyOf(Vertex from, Vertex to, std::uint32_t t) const;

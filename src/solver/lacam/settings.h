@@ -11,12 +11,13 @@ struct LacamSettings {
   Objective objective = Objective::kMakespan;
   std::uint64_t seed = 0;
   std::uint64_t expansion_limit = 0;  ///< as in SolverOptions
+  std::uint32_t threads = 1;          ///< as there, >= 1
 
   bool check = true;           ///< ask core/solvability first
   std::uint64_t guidance = 4;  ///< rounds in which robots choose scattered paths; 0: no guidance
   std::uint64_t margin = 10;   ///< steps that a scattered path may be longer than the shortest
   bool swap = true;            ///< robots that block each other change places
-  std::uint64_t polish = 1;    ///< passes over the plan found, for half the search's effort at most
+  std::uint64_t polish = 3;    ///< passes over the plan found
   std::uint64_t memory = 512;  ///< MiB that configurations may take
 };
 

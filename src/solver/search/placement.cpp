@@ -9,9 +9,6 @@ namespace {
 // Keeps the weight of a whole path within 32 bits.
 constexpr std::uint32_t kMostQueued = 1000;
 constexpr std::uint32_t kLongestDelay = 20;
-constexpr std::size_t kLargestBatch = 32;
-// A batch of whose robots more than one in so many has to wait for the next was too large.
-constexpr std::size_t kPostponedOneIn = 5;
 
 }  // namespace
 
@@ -64,7 +61,7 @@ std::uint32_t Placement::drawDeparture(std::uint32_t robot, std::uint32_t horizo
 }
 
 void Placement::drawBatch(std::uint32_t horizon, const Effort& effort) {
-  batch_.resize(std::min(batch_size_, queue_.size()));
+  batch_.resize(std::min(batch_size_.get(), queue_.size()));
   for (std::size_t i = 0; i < batch_.size(); ++i) {
     batch_[i].robot = queue_[i];
     batch_[i].departure = drawDeparture(queue_[i], horizon, effort.delayed_one_in);
@@ -119,14 +116,6 @@ bool Placement::place(Candidate& candidate, std::uint64_t displacements) {
   return true;
 }
 
-void Placement::adaptBatch(std::size_t postponed) {
-  if (kPostponedOneIn * postponed > batch_.size()) {
-    batch_size_ = std::max<std::size_t>(1, batch_size_ / 2);
-  } else {
-    batch_size_ = std::min(batch_size_ + 1, kLargestBatch);
-  }
-}
-
 Placement::Outcome Placement::run(std::uint32_t horizon, const Effort& effort,
                                   const Deadline& deadline) {
   std::size_t fewest = queue_.size();
@@ -153,7 +142,7 @@ Placement::Outcome Placement::run(std::uint32_t horizon, const Effort& effort,
     }
     queue_.insert(queue_.begin(), postponed.begin(), postponed.end());
     if (interrupted) return Outcome::kInterrupted;
-    adaptBatch(postponed.size());
+    batch_size_.adapt(batch_.size(), postponed.size());
     if (queue_.size() < fewest) {
       fewest = queue_.size();
       left = effort.patience;

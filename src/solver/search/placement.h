@@ -4,6 +4,7 @@
 #include <deque>
 #include <vector>
 
+#include "solver/search/batch_size.h"
 #include "solver/search/eviction_search.h"
 #include "solver/search/thread_team.h"
 #include "split_mapf/core/deadline.h"
@@ -64,7 +65,6 @@ class Placement {
   void searchBatch(std::uint32_t horizon, const Effort& effort, const Deadline& deadline);
   bool place(Candidate& candidate, std::uint64_t displacements);
   bool mayDisplace(const std::vector<std::uint32_t>& robots, std::uint64_t displacements) const;
-  void adaptBatch(std::size_t postponed);
   void remove(std::uint32_t robot);
   void requeue(std::uint32_t robot);
   std::uint32_t drawDeparture(std::uint32_t robot, std::uint32_t horizon, std::uint32_t one_in);
@@ -82,7 +82,7 @@ class Placement {
   std::vector<Candidate> batch_;
   std::vector<std::uint32_t> placed_in_;  // by robot: number of the batch that placed it last
   std::uint32_t batch_number_ = 0;
-  std::size_t batch_size_ = 1;
+  BatchSize batch_size_;
   std::uint64_t expansions_ = 0;
 };
 

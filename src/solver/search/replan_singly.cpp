@@ -1,9 +1,13 @@
 #include "solver/search/replan_singly.h"
 
 #include <algorithm>
+#include <deque>
 #include <utility>
 
+#include "solver/search/batch_size.h"
 #include "solver/search/gap_search.h"
+#include "solver/search/reservation_table.h"
+#include "solver/search/thread_team.h"
 
 namespace split_mapf {
 namespace {
@@ -20,6 +24,120 @@ std::vector<std::uint32_t> mostDelayedFirst(const Instance& instance,
                    [&](std::uint32_t a, std::uint32_t b) { return delay[a] > delay[b]; });
   return delayed;
 }
+
+/// One call of replanSingly() for a whole plan.
+class BatchReplanning {
+ public:
+  BatchReplanning(const Instance& instance, Plan plan, const ReplanEffort& effort,
+                  const Deadline& deadline)
+      : instance_(instance),
+        plan_(std::move(plan)),
+        effort_(effort),
+        deadline_(deadline),
+        tables_(effort.threads, ReservationTable(instance.graph().size(), plan_)),
+        team_(effort.threads),
+        searches_(effort.threads, GapSearch(instance.graph())) {}
+
+  Plan run() {
+    for (std::uint64_t pass = 0; pass < effort_.passes; ++pass) {
+      gained_ = 0;
+      const std::vector<std::uint32_t> delayed = mostDelayedFirst(instance_, plan_.paths);
+      queue_.assign(delayed.begin(), delayed.end());
+      while (!queue_.empty()) {
+        if (spent_ || deadline_.expired()) return std::move(plan_);
+        replanBatch();
+      }
+      if (gained_ == 0) break;
+    }
+    return std::move(plan_);
+  }
+
+ private:
+  struct Change {
+    std::uint32_t robot;
+    Path before;
+  };
+
+  void replanBatch() {
+    const std::size_t size = std::min(batch_size_.get(), queue_.size());
+    batch_.assign(queue_.begin(), queue_.begin() + static_cast<std::ptrdiff_t>(size));
+    queue_.erase(queue_.begin(), queue_.begin() + static_cast<std::ptrdiff_t>(size));
+    searchBatch();
+    std::uint64_t expansions = 0;
+    const std::uint64_t gained_before = gained_;
+    postponed_.clear();
+    changes_.clear();
+    for (std::size_t i = 0; i < size; ++i) {
+      expansions += answers_[i].expansions;
+      if (!take(batch_[i], std::move(answers_[i].path))) postponed_.push_back(batch_[i]);
+    }
+    tellTheOthers();
+    queue_.insert(queue_.begin(), postponed_.begin(), postponed_.end());
+    batch_size_.adapt(size, postponed_.size());
+    spent_ = effort_.go_on && !effort_.go_on(expansions, gained_ - gained_before);
+  }
+
+  void searchBatch() {
+    answers_.resize(batch_.size());
+    team_.forEach(static_cast<std::uint32_t>(batch_.size()),
+                  [&](std::uint32_t i, std::uint32_t member) {
+                    const std::uint32_t robot = batch_[i];
+                    const Path& path = plan_.paths[robot];
+                    ReservationTable& table = tables_[member];
+                    table.remove(robot, path);
+                    GapQuery query;
+                    query.start = instance_.start(robot);
+                    query.distances = &instance_.distances(robot);
+                    query.placed = &table;
+                    query.latest_arrival = static_cast<std::uint32_t>(path.size() - 2);
+                    answers_[i] = searches_[member].search(query, deadline_);
+                    table.insert(robot, path);
+                  });
+  }
+
+  /// @return whether the robot's turn is over: it has the path, or there is none.
+  bool take(std::uint32_t robot, Path path) {
+    if (path.empty()) return true;
+    ReservationTable& table = tables_.front();
+    Path& own = plan_.paths[robot];
+    table.remove(robot, own);
+    const bool free = table.isFree(path, 0);
+    if (free) {
+      gained_ += own.size() - path.size();
+      own.swap(path);
+      changes_.push_back({robot, std::move(path)});
+    }
+    table.insert(robot, own);
+    return free;
+  }
+
+  void tellTheOthers() {
+    team_.forEach(static_cast<std::uint32_t>(tables_.size() - 1),
+                  [&](std::uint32_t other, std::uint32_t) {
+                    ReservationTable& table = tables_[other + 1];
+                    for (const Change& change : changes_) table.remove(change.robot, change.before);
+                    for (const Change& change : changes_) {
+                      table.insert(change.robot, plan_.paths[change.robot]);
+                    }
+                  });
+  }
+
+  const Instance& instance_;
+  Plan plan_;
+  const ReplanEffort& effort_;
+  const Deadline& deadline_;
+  std::vector<ReservationTable> tables_;  // of everybody, one a thread
+  ThreadTeam team_;
+  std::vector<GapSearch> searches_;  // one a thread
+  BatchSize batch_size_;
+  std::deque<std::uint32_t> queue_;  // next first
+  std::vector<std::uint32_t> batch_;
+  std::vector<GapAnswer> answers_;
+  std::vector<std::uint32_t> postponed_;
+  std::vector<Change> changes_;  // of the batch
+  std::uint64_t gained_ = 0;     // steps, in this pass
+  bool spent_ = false;
+};
 
 }  // namespace
 
@@ -46,27 +164,11 @@ template void replanSingly<PathTable>(const Instance& instance, std::uint64_t pa
                                       const FindPath& find, const std::function<bool()>& stopped,
                                       std::vector<Path>& paths, PathTable& table);
 
-Plan replanSingly(const Instance& instance, Plan plan, std::uint64_t passes,
-                  const Deadline& deadline,
-                  const std::function<bool(std::uint64_t expansions)>& go_on) {
+Plan replanSingly(const Instance& instance, Plan plan, const ReplanEffort& effort,
+                  const Deadline& deadline) {
   trimToArrival(plan);
-  if (passes == 0) return plan;
-  ReservationTable table(instance.graph().size(), plan);
-  GapSearch search(instance.graph());
-  bool spent = false;
-  const FindPath find = [&](std::uint32_t robot, std::uint32_t latest_arrival) {
-    GapQuery query;
-    query.start = instance.start(robot);
-    query.distances = &instance.distances(robot);
-    query.placed = &table;
-    query.latest_arrival = latest_arrival;
-    GapAnswer answer = search.search(query, deadline);
-    spent = go_on && !go_on(answer.expansions);
-    return std::move(answer.path);
-  };
-  const auto stopped = [&] { return spent || deadline.expired(); };
-  replanSingly(instance, passes, find, stopped, plan.paths, table);
-  return plan;
+  if (effort.passes == 0) return plan;
+  return BatchReplanning(instance, std::move(plan), effort, deadline).run();
 }
 
 }  // namespace split_mapf

@@ -26,10 +26,21 @@ using FindPath = std::function<Path(std::uint32_t robot, std::uint32_t latest_ar
 template <typename Table>
 void replanSingly(const Instance& instance, std::uint64_t passes, const FindPath& find,
                   const std::function<bool()>& stopped, std::vector<Path>& paths, Table& table);
-/// The same with the earliest arrivals that the others leave open, until the deadline, or until
-/// `go_on`, asked after every search with the states that it expanded, says no (null: it is not).
-Plan replanSingly(const Instance& instance, Plan plan, std::uint64_t passes,
-                  const Deadline& deadline,
-                  const std::function<bool(std::uint64_t expansions)>& go_on = nullptr);
+
+/// What replanSingly() of a whole plan may use.
+struct ReplanEffort {
+  std::uint64_t passes = 1;
+  std::uint32_t threads = 1;  ///< >= 1; the plan does not depend on it
+  /// Asked after each batch of searches with the states that they expanded and the steps that they
+  /// took off the sum of costs; no ends the passes. Null: it never does.
+  std::function<bool(std::uint64_t expansions, std::uint64_t gained)> go_on;
+};
+
+/// The same with the earliest arrivals that the others leave open, until the deadline. The next
+/// robots of a pass, up to 32, are searched for side by side, each among those who are not; who
+/// meets one of its batch, as that was or as it is now, is searched for again in the next. Cost: a
+/// GapSearch a delayed robot and pass, and few more. @pre the plan is valid.
+Plan replanSingly(const Instance& instance, Plan plan, const ReplanEffort& effort,
+                  const Deadline& deadline);
 
 }  // namespace split_mapf
