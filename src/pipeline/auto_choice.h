@@ -31,6 +31,9 @@ struct AutoChoice {
   std::string split;
   std::string reason;          ///< half a sentence for people
   double last_resort_sec = 0;  ///< expected of kLastResort; 0 where it is chosen, or not known
+  /// Expansions after which it is the others' turn, many times what is expected: the choice was
+  /// wrong. Does not depend on threads. 0 where kLastResort is chosen, or nothing is known.
+  std::uint64_t turn = 0;
 };
 
 /// Chooses, among the methods whose plans are expected to cost no more than a quarter above the

@@ -22,9 +22,6 @@ constexpr std::uint32_t kSmallKnot = 20;
 constexpr std::uint64_t kOptimumExpansions = 50000;
 // Passes across the seams where nothing is said and the cost is above its bound.
 constexpr std::uint32_t kReplanPasses = 3;
-// What the solver that `auto` chose may take before others are called: many times the usual.
-constexpr std::uint64_t kLeastExpansions = 5000000;
-constexpr std::uint64_t kExpansionsAStep = 1000;
 // The last resort is kept so many times what it is expected to take, at most a share of what is
 // left.
 constexpr double kReserve = 2;
@@ -167,9 +164,7 @@ void PlanRun::choose() {
   const AutoChoice choice = chooseMethod(question, CostModel::shipped());
   if (request_.solver == "auto") {
     request_.solver = choice.solver;
-    // An incomplete solver may search for long where there is nothing to find; others wait.
-    request_.solver_options.expansion_limit =
-        kLeastExpansions + kExpansionsAStep * features_->sum_bound;
+    request_.solver_options.expansion_limit = choice.turn;
     keepTimeForLastResort(choice.last_resort_sec);
   }
   if (request_.split.kind == SplitSpec::Kind::kAuto) request_.split = parseSplitSpec(choice.split);
@@ -276,6 +271,7 @@ void PlanRun::callOthers(LadderOutcome& outcome) {
   for (const std::string& solver : others) {
     const bool failed = late || outcome.last.termination == Termination::kNoPlanFound;
     if (!outcome.plans.empty() || !failed) return;
+    choice_.insert(choice_.size() - 1, "; " + request_.solver + " gave up");
     request_.solver = solver;
     request_.split = SplitSpec{};
     report_.subproblems.clear();  // they tell of the plan, and this one came to nothing

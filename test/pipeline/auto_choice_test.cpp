@@ -95,6 +95,33 @@ TEST(AutoChoice, TheSolverDoesNotDependOnTheThreads) {
   }
 }
 
+TEST(AutoChoice, ATurnIsManyTimesWhatIsExpectedAndShorterInJams) {
+  const CostModel model(kModel);
+  const AutoQuestion asked = question(1000, 1);
+  ASSERT_EQ(chooseMethod(asked, model).solver, "sturdy") << "a second is expected";
+  const std::uint64_t turn = chooseMethod(asked, model).turn;
+  EXPECT_GT(turn, 10'000'000U) << "expansions that take 5 s at least";
+  EXPECT_EQ(chooseMethod(question(1000, 4), model).turn, turn) << "whatever the threads";
+  AutoQuestion jammed = asked;
+  jammed.features.head_on = 1;
+  EXPECT_LT(chooseMethod(jammed, model).turn, turn / 2);
+  EXPECT_GT(chooseMethod(jammed, model).turn, 0U);
+  EXPECT_GT(chooseMethod(question(1, 1), model).turn, 100'000U) << "hardly any time is expected";
+  AutoQuestion unknown = asked;
+  unknown.solver = "unheard_of";
+  EXPECT_EQ(chooseMethod(unknown, model).turn, 0U);
+}
+
+TEST(AutoChoice, TheLastResortHasNobodyToYieldTo) {
+  const CostModel model(R"(methods:
+  - {solver: lacam, split: none, objective: makespan, log_seconds: [0, 0, 0, 0, 0, 0, 0],
+     log_excess: [-1, 0, 0, 0, 0, 0, 0]}
+)");
+  AutoQuestion asked = question(100, 1);
+  asked.solvers = {"lacam"};
+  EXPECT_EQ(chooseMethod(asked, model).turn, 0U);
+}
+
 TEST(AutoChoice, KeepsWhatWasAskedFor) {
   const CostModel model(kModel);
   AutoQuestion asked = question(1000, 2);

@@ -13,6 +13,7 @@
 #include "split_mapf/solver/lacam.h"
 #include "support/ascii_grid.h"
 #include "support/fake_solver.h"
+#include "support/small_instances.h"
 
 namespace split_mapf {
 namespace {
@@ -124,6 +125,7 @@ TEST(Planner, AutoCallsOthersWhereItsChoiceFails) {
   ASSERT_TRUE(report.plan) << report.message;
   EXPECT_TRUE(validate(instance, *report.plan).empty());
   EXPECT_EQ(report.subproblems.back().solver, "ecbs");
+  EXPECT_NE(report.message.find("conflict_optimizer gave up"), std::string::npos) << report.message;
   EXPECT_EQ(
       planner.plan(instance, requestFor("conflict_optimizer", "none"), Deadline()).termination,
       Termination::kNoPlanFound)
@@ -151,6 +153,28 @@ TEST(Planner, AutoHasAPlanWhereItsChoiceIsNotDoneInTime) {
       planner.plan(instance, requestFor("conflict_optimizer", "none"), Deadline(0.2)).termination,
       Termination::kTimeout)
       << "a solver that was asked for stands alone";
+}
+
+TEST(Planner, AutoPassesTheTurnOnInAJam) {
+  // Conflict optimisation has no plan after 10 s here, and so long before the deadline there is no
+  // need of the last resort.
+  const Instance instance = test::generatedInstance(24, 0.2, 300, 1);
+  PlanRequest request = requestFor("auto", "none");
+  request.objective = Objective::kSumOfCosts;
+  Plan first;
+  for (const std::uint32_t threads : {1U, 2U}) {
+    Executor executor(threads);
+    request.threads = threads;
+    const PlanReport report =
+        Planner(builtinSolvers(), executor).plan(instance, request, Deadline(3600));
+    ASSERT_TRUE(report.plan) << report.message;
+    EXPECT_TRUE(validate(instance, *report.plan).empty());
+    EXPECT_EQ(report.message.find("solved by lacam"), 0U) << report.message;
+    EXPECT_NE(report.message.find("conflict_optimizer gave up"), std::string::npos)
+        << report.message;
+    if (threads == 1) first = *report.plan;
+    EXPECT_EQ(report.plan->paths, first.paths) << "whose turn it is does not depend on the clock";
+  }
 }
 
 TEST(Planner, AutoFindsTheOptimumOfASmallKnot) {
