@@ -72,13 +72,13 @@ SolveResult EcbsSolver::solve(const Instance& instance, const Deadline& deadline
   EcbsRun run(instance, *settings_, deadline);
   SolveResult result = RobotGroups(run).solve();
   if (result.termination == Termination::kSolved) {
-    const FindPath find = [&](std::uint32_t robot, std::uint32_t latest_arrival) {
-      return run.low_level.run(run.low_level.collisionFree(robot, latest_arrival));
+    ReplanEffort effort;
+    effort.passes = settings_->polish;
+    effort.go_on = [&run](std::uint64_t expansions, std::uint64_t) {
+      run.low_level.count(expansions);
+      return !run.low_level.stopped();
     };
-    replanSingly(
-        instance, settings_->polish, find, [&] { return run.low_level.stopped(); }, run.paths,
-        run.table);
-    result.plan = Plan{std::move(run.paths)};
+    result.plan = replanSingly(instance, Plan{std::move(run.paths)}, effort, deadline);
     result.message.clear();
   }
   result.low_level_expansions = run.low_level.expansions();

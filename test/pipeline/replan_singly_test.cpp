@@ -27,23 +27,6 @@ TEST(ReplanSingly, TakesTheShorterWayThatTheOthersLeaveOpen) {
   EXPECT_EQ(better.paths[1], plan.paths[1]);
 }
 
-TEST(ReplanSingly, TheTableFollowsThePaths) {
-  const Instance instance = test::instanceFromAscii({"a...", "b..."}, {"...a", "...b"});
-  PathTable table(instance.graph().size());
-  std::vector<Path> paths = {{0, 0, 0, 1, 2, 3}, {4, 5, 6, 7}};
-  for (std::uint32_t i = 0; i < 2; ++i) table.insert(i, paths[i]);
-  const FindPath find = [&](std::uint32_t robot, std::uint32_t latest_arrival) {
-    EXPECT_EQ(robot, 0U) << "the other is not delayed";
-    EXPECT_EQ(latest_arrival, 4U);
-    EXPECT_TRUE(table.at(0).empty()) << "the robot is out of its own way";
-    return Path{0, 1, 2, 3};
-  };
-  replanSingly(
-      instance, 1, find, [] { return false; }, paths, table);
-  EXPECT_EQ(paths[0], (Path{0, 1, 2, 3}));
-  EXPECT_EQ(table.at(0).front().end, 1U);
-}
-
 TEST(ReplanSingly, NobodyArrivesLaterOnRandomPlans) {
   Executor executor(1);
   int gained = 0;

@@ -30,13 +30,6 @@ SearchQuery LowLevel::shortest(std::uint32_t robot) const {
   return query;
 }
 
-SearchQuery LowLevel::collisionFree(std::uint32_t robot, std::uint32_t latest) const {
-  SearchQuery query = shortest(robot);
-  query.mode = OthersAre::kObstacles;
-  query.latest_arrival = latest;
-  return query;
-}
-
 SearchQuery LowLevel::fewestCollisions(std::uint32_t robot, std::uint32_t bound,
                                        std::uint32_t own_bound) const {
   SearchQuery query = shortest(robot);

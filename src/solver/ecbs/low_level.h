@@ -21,8 +21,6 @@ class LowLevel {
   /// that of all robots for makespan, of this one for sum of costs; `own_bound` is this robot's.
   SearchQuery fewestCollisions(std::uint32_t robot, std::uint32_t bound,
                                std::uint32_t own_bound) const;
-  /// For the earliest path free of collisions that arrives by `latest`.
-  SearchQuery collisionFree(std::uint32_t robot, std::uint32_t latest) const;
   /// For the shortest path, the others being ignored.
   SearchQuery shortest(std::uint32_t robot) const;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <deque>
 #include <utility>
+#include <vector>
 
 #include "solver/search/batch_size.h"
 #include "solver/search/gap_search.h"
@@ -140,29 +141,6 @@ class BatchReplanning {
 };
 
 }  // namespace
-
-template <typename Table>
-void replanSingly(const Instance& instance, std::uint64_t passes, const FindPath& find,
-                  const std::function<bool()>& stopped, std::vector<Path>& paths, Table& table) {
-  bool gained = true;
-  for (std::uint64_t pass = 0; pass < passes && gained; ++pass) {
-    gained = false;
-    for (const std::uint32_t robot : mostDelayedFirst(instance, paths)) {
-      if (stopped()) return;
-      table.remove(robot, paths[robot]);
-      Path path = find(robot, static_cast<std::uint32_t>(paths[robot].size() - 2));
-      if (!path.empty()) {
-        paths[robot] = std::move(path);
-        gained = true;
-      }
-      table.insert(robot, paths[robot]);
-    }
-  }
-}
-
-template void replanSingly<PathTable>(const Instance& instance, std::uint64_t passes,
-                                      const FindPath& find, const std::function<bool()>& stopped,
-                                      std::vector<Path>& paths, PathTable& table);
 
 Plan replanSingly(const Instance& instance, Plan plan, const ReplanEffort& effort,
                   const Deadline& deadline) {
