@@ -28,7 +28,6 @@ BENCHMARK_CAPTURE(searchAmongOthers, ignored, OthersAre::kIgnored)->Args({128, 5
 BENCHMARK_CAPTURE(searchAmongOthers, counted, OthersAre::kCounted)
     ->Args({32, 150})
     ->Args({128, 500});
-BENCHMARK_CAPTURE(searchAmongOthers, obstacles, OthersAre::kObstacles)->Args({128, 500});
 
 }  // namespace
 }  // namespace split_mapf

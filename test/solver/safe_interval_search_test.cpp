@@ -178,23 +178,6 @@ TEST_F(RandomCases, EarliestArrivalUnderConstraintsAlone) {
   EXPECT_GT(found, 1000);
 }
 
-TEST_F(RandomCases, EarliestArrivalAmongObstacles) {
-  int found = 0;
-  for (std::uint64_t seed = 0; seed < 3000; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    const Case c = randomCase(seed);
-    const Path path = search(c, OthersAre::kObstacles);
-    const auto expected = earliestArrival(c, true);
-    ASSERT_EQ(!path.empty(), expected.has_value());
-    if (path.empty()) continue;
-    ++found;
-    expectLegal(c, path);
-    EXPECT_EQ(collisions(c, path), 0U);
-    EXPECT_EQ(path.size() - 1, *expected);
-  }
-  EXPECT_GT(found, 500);
-}
-
 TEST_F(RandomCases, CountedCollisionsAreAvoidedWhereThatIsPossible) {
   int free = 0;
   for (std::uint64_t seed = 0; seed < 3000; ++seed) {

@@ -122,9 +122,9 @@ bool SafeIntervalSearch::prepareGoal() {
   const Segment* segments = goal.segments;
   if (goal.count == 0) return false;
   std::uint32_t i = goal.count - 1;
-  if (segments[i].end != kForever || blocked(segments[i])) return false;
+  if (segments[i].end != kForever) return false;
   collisions_after_.assign(goal.count, 0);
-  for (; i > 0 && segments[i - 1].end == segments[i].begin && !blocked(segments[i - 1]); --i) {
+  for (; i > 0 && segments[i - 1].end == segments[i].begin; --i) {
     collisions_after_[i - 1] = collisions_after_[i] + segments[i].entering;
   }
   earliest_hold_ = segments[i].begin;
@@ -145,7 +145,7 @@ bool SafeIntervalSearch::pushStart() {
   queue_.reserveKeys(static_cast<std::size_t>(kMostConflicts + 1) * estimates_);
 
   const Meeting& at = meet(query_->start);
-  if (at.count == 0 || at.segments[0].begin > 0 || blocked(at.segments[0])) return false;
+  if (at.count == 0 || at.segments[0].begin > 0) return false;
   State start;
   start.place = at.first_place;
   start.vertex = query_->start;
@@ -223,7 +223,7 @@ void SafeIntervalSearch::expandWait(const State& state, const Segment& segment,
   const std::uint32_t number = state.place - at.first_place + 1;
   if (number >= at.count) return;
   const Segment& next = at.segments[number];
-  if (next.begin != segment.end || blocked(next)) return;
+  if (next.begin != segment.end) return;
   State waited = state;
   ++waited.place;
   waited.time = next.begin;
@@ -244,10 +244,9 @@ void SafeIntervalSearch::expandMoves(const State& state, std::uint32_t index, st
     std::uint32_t number = firstEndingAfter(there.segments, there.count, from);
     if (number < there.count && there.segments[number].begin <= from) {
       const bool open = at_once || there.segments[number].begin == from;
-      if (open && !blocked(there.segments[number])) enter(state, index, to, number, from);
+      if (open) enter(state, index, to, number, from);
       ++number;
     }
-    while (number < there.count && blocked(there.segments[number])) ++number;
     if (number < there.count) later = std::min(later, there.segments[number].begin);
   }
   if (later <= leave_by && later < kForever) pushLater(state, index, later);
@@ -279,7 +278,6 @@ void SafeIntervalSearch::enter(const State& state, std::uint32_t index, Vertex t
   if (to == query_->distances->goal()) arrive(state, index, number, time, last);
   if (!firstAllowed(state.vertex, to, time, last)) return;
   const std::uint32_t met = swaps(state, to, there, time);
-  if (met > 0 && query_->mode == OthersAre::kObstacles) return;
   State entered = state;
   entered.place = at.first_place + number;
   entered.vertex = to;
@@ -297,7 +295,6 @@ void SafeIntervalSearch::arrive(const State& state, std::uint32_t index, std::ui
   const Meeting& at = met_[goal];
   const Segment& there = at.segments[number];
   const std::uint32_t met = swaps(state, goal, there, time);
-  if (met > 0 && query_->mode == OthersAre::kObstacles) return;
   State arrived = state;
   arrived.place = at.first_place + number;
   arrived.vertex = goal;

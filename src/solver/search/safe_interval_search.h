@@ -16,9 +16,8 @@ namespace split_mapf {
 
 /// What the other robots' paths mean to a search.
 enum class OthersAre {
-  kIgnored,    ///< they are not there
-  kCounted,    ///< running into them is allowed and counted
-  kObstacles,  ///< running into them is forbidden
+  kIgnored,  ///< they are not there
+  kCounted,  ///< running into them is allowed and counted
 };
 
 /// One robot's question.
@@ -46,13 +45,13 @@ struct SearchAnswer {
 
 /// Single-robot search on (vertex, safe interval) states. Finds the path with the fewest
 /// collisions with the others, and among these the earliest arrival, that obeys the constraints and
-/// arrives in time; with others ignored or as obstacles it is the earliest arrival.
-/// Sources: Phillips and Likhachev, ICRA 2011 (safe intervals); Li et al., AAAI 2022 (soft
-/// obstacles cut intervals too). Deviations: a bucket queue instead of heaps; the intervals of a
-/// vertex are kept by the path table between searches; a state first makes the moves that end at
-/// the next step and queues one continuation for all later ones, as most are never needed; the
-/// goal's waiting time inside the heuristic.
-/// Keeps its memory between calls; not thread-safe.
+/// arrives in time; with others ignored it is the earliest arrival. Where they must be kept clear
+/// of, GapSearch is the faster one. Sources: Phillips and Likhachev, ICRA 2011 (safe intervals); Li
+/// et al., AAAI 2022 (soft obstacles cut intervals too). Deviations: a bucket queue instead of
+/// heaps; the intervals of a vertex are kept by the path table between searches; a state first
+/// makes the moves that end at the next step and queues one continuation for all later ones, as
+/// most are never needed; the goal's waiting time inside the heuristic. Keeps its memory between
+/// calls; not thread-safe.
 class SafeIntervalSearch {
  public:
   explicit SafeIntervalSearch(const Graph& graph);
@@ -92,9 +91,6 @@ class SafeIntervalSearch {
   const Meeting& meet(Vertex v);
   const Timeline& timelineOf(Vertex v);
   Timeline& ownTimeline();
-  bool blocked(const Segment& segment) const {
-    return query_->mode == OthersAre::kObstacles && segment.present > 0;
-  }
   std::uint32_t distanceOf(Vertex v) const {
     if (flat_ == nullptr) return (*query_->distances)(v);
     return flat_[v] != 0xffffU ? flat_[v] : DistanceTable::kUnreachable;
