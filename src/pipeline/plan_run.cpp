@@ -271,7 +271,8 @@ void PlanRun::callOthers(LadderOutcome& outcome) {
   for (const std::string& solver : others) {
     const bool failed = late || outcome.last.termination == Termination::kNoPlanFound;
     if (!outcome.plans.empty() || !failed) return;
-    choice_.insert(choice_.size() - 1, "; " + request_.solver + " gave up");
+    const char* const how = late ? " was not done in time" : " gave up";
+    choice_.insert(choice_.size() - 1, "; " + request_.solver + how);
     request_.solver = solver;
     request_.split = SplitSpec{};
     report_.subproblems.clear();  // they tell of the plan, and this one came to nothing

@@ -149,6 +149,8 @@ TEST(Planner, AutoHasAPlanWhereItsChoiceIsNotDoneInTime) {
   ASSERT_EQ(report.termination, Termination::kSolved) << report.message;
   EXPECT_TRUE(validate(instance, *report.plan).empty());
   EXPECT_EQ(report.message.find("solved by lacam"), 0U) << report.message;
+  EXPECT_NE(report.message.find("conflict_optimizer was not done in time"), std::string::npos)
+      << report.message;
   EXPECT_EQ(
       planner.plan(instance, requestFor("conflict_optimizer", "none"), Deadline(0.2)).termination,
       Termination::kTimeout)

@@ -28,7 +28,7 @@ struct EvictionQuery : GapQuery {
 /// over-estimated.
 /// Keeps its memory between calls; not thread-safe. Memory: two bits for each step of the vertices
 /// that the search meets.
-class alignas(kApart) EvictionSearch {
+class EvictionSearch {
  public:
   explicit EvictionSearch(const Graph& graph);
   GapAnswer search(const EvictionQuery& query, const Deadline& deadline);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -39,10 +38,6 @@ inline GapQuery queryFrom(const Path& path, std::uint32_t kept, const DistanceTa
   return query;
 }
 
-/// Searches of different threads that lie side by side must not share a cache line (two are fetched
-/// at once): each writes to itself at every state, and two threads would be no faster than one.
-constexpr std::size_t kApart = 128;
-
 /// The answer; `path` is empty when there is none (or when the deadline came: `interrupted`).
 struct GapAnswer {
   Path path;
@@ -57,7 +52,7 @@ struct GapAnswer {
 /// of a neighbour are looked at in one go: free, and not reached yet.
 /// Keeps its memory between calls; not thread-safe. Memory: one bit for each step of the vertices
 /// that the search meets.
-class alignas(kApart) GapSearch {
+class GapSearch {
  public:
   static constexpr std::uint32_t kNoState = 0xffffffffU;
 

@@ -17,7 +17,7 @@ Placement::Placement(const Instance& instance, const std::vector<std::uint32_t>&
     : instance_(instance),
       engine_(seed),
       team_(threads),
-      searches_(threads, EvictionSearch(instance.graph())),
+      searches_(threads, {EvictionSearch(instance.graph())}),
       table_(instance.graph().size()),
       queued_(instance.robots(), 0),
       weights_(instance.robots(), 1),
@@ -80,7 +80,7 @@ void Placement::searchBatch(std::uint32_t horizon, const Effort& effort, const D
                   query.start = instance_.start(candidate.robot);
                   query.distances = &instance_.distances(candidate.robot);
                   query.departure = candidate.departure;
-                  candidate.answer = searches_[member].search(query, deadline);
+                  candidate.answer = searches_[member].value.search(query, deadline);
                 });
 }
 

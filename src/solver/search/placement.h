@@ -4,6 +4,7 @@
 #include <deque>
 #include <vector>
 
+#include "solver/search/apart.h"
 #include "solver/search/batch_size.h"
 #include "solver/search/eviction_search.h"
 #include "solver/search/thread_team.h"
@@ -72,7 +73,7 @@ class Placement {
   const Instance& instance_;
   RandomEngine engine_;
   ThreadTeam team_;
-  std::vector<EvictionSearch> searches_;  // one a thread
+  std::vector<Apart<EvictionSearch>> searches_;  // one a thread
   ReservationTable table_;
   Plan plan_;                           // an empty path: waits
   std::deque<std::uint32_t> queue_;     // next first

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/search/apart.h"
 #include "solver/search/batch_size.h"
 #include "solver/search/gap_search.h"
 #include "solver/search/reservation_table.h"
@@ -12,6 +13,9 @@
 
 namespace split_mapf {
 namespace {
+
+// A table for each takes memory, and batches are too small for more.
+constexpr std::uint32_t kMostThreads = 8;
 
 std::vector<std::uint32_t> mostDelayedFirst(const Instance& instance,
                                             const std::vector<Path>& paths) {
@@ -35,9 +39,10 @@ class BatchReplanning {
         plan_(std::move(plan)),
         effort_(effort),
         deadline_(deadline),
-        tables_(effort.threads, ReservationTable(instance.graph().size(), plan_)),
-        team_(effort.threads),
-        searches_(effort.threads, GapSearch(instance.graph())) {}
+        tables_(std::min(kMostThreads, effort.threads),
+                ReservationTable(instance.graph().size(), plan_)),
+        team_(static_cast<std::uint32_t>(tables_.size())),
+        searches_(tables_.size(), {GapSearch(instance.graph())}) {}
 
   Plan run() {
     for (std::uint64_t pass = 0; pass < effort_.passes; ++pass) {
@@ -91,7 +96,7 @@ class BatchReplanning {
                     query.distances = &instance_.distances(robot);
                     query.placed = &table;
                     query.latest_arrival = static_cast<std::uint32_t>(path.size() - 2);
-                    answers_[i] = searches_[member].search(query, deadline_);
+                    answers_[i] = searches_[member].value.search(query, deadline_);
                     table.insert(robot, path);
                   });
   }
@@ -129,7 +134,7 @@ class BatchReplanning {
   const Deadline& deadline_;
   std::vector<ReservationTable> tables_;  // of everybody, one a thread
   ThreadTeam team_;
-  std::vector<GapSearch> searches_;  // one a thread
+  std::vector<Apart<GapSearch>> searches_;  // one a thread
   BatchSize batch_size_;
   std::deque<std::uint32_t> queue_;  // next first
   std::vector<std::uint32_t> batch_;
@@ -145,7 +150,7 @@ class BatchReplanning {
 Plan replanSingly(const Instance& instance, Plan plan, const ReplanEffort& effort,
                   const Deadline& deadline) {
   trimToArrival(plan);
-  if (effort.passes == 0) return plan;
+  if (effort.passes == 0 || mostDelayedFirst(instance, plan.paths).empty()) return plan;
   return BatchReplanning(instance, std::move(plan), effort, deadline).run();
 }
 
