@@ -39,9 +39,9 @@ constexpr double kPlacingGain = 1.35;
 constexpr double kLeastToSplitSec = 0.05;
 
 // A race in turns: whoever has taken so many times what is expected has run into a jam that the
-// model does not see, and it may take hundreds of times that. On our maps none takes more than 5
-// times that but one (ost003d, 1000 robots, scenario 5: 19 times), and none more than 3 times where
-// robots often meet head-on, which is where jams are.
+// model does not see, and it may take hundreds of times that. In expansions none on our maps takes
+// more than about 5 times that but one (ost003d, 1000 robots, scenario 5: 10 times), and none more
+// than 4 times where robots often meet head-on, which is where jams are.
 constexpr double kTurn = 25;
 constexpr double kTurnHeadOn = 8;
 constexpr double kOftenHeadOn = 0.5;
@@ -65,20 +65,20 @@ double wallSeconds(const MethodEstimate& method, std::uint32_t threads) {
   return method.seconds / (1 + kParallelShare * (workers - 1));
 }
 
-std::uint64_t turnOf(const MethodEstimate& choice, const AutoQuestion& question,
-                     const CostModel& model) {
+/// `seconds` are those of the wall.
+struct Candidate : MethodEstimate {
+  double processor_sec = 0;  // whatever the threads
+};
+
+std::uint64_t turnOf(const Candidate& choice, const InstanceFeatures& features) {
   if (choice.solver == kLastResort) return 0;
-  for (const MethodEstimate& method : model.estimate(question.features, question.objective)) {
-    if (method.solver != choice.solver || method.split != choice.split) continue;
-    const double times = question.features.head_on >= kOftenHeadOn ? kTurnHeadOn : kTurn;
-    return static_cast<std::uint64_t>(
-        std::max(kLeastTurn, times * kExpansionsASecond * method.seconds));
-  }
-  return 0;
+  const double times = features.head_on >= kOftenHeadOn ? kTurnHeadOn : kTurn;
+  const double expansions = times * kExpansionsASecond * choice.processor_sec;
+  return static_cast<std::uint64_t>(std::max(kLeastTurn, expansions));
 }
 
-double lastResortSec(const std::vector<MethodEstimate>& methods) {
-  for (const MethodEstimate& method : methods) {
+double lastResortSec(const std::vector<Candidate>& methods) {
+  for (const Candidate& method : methods) {
     if (method.solver == kLastResort && method.split == "none") return method.seconds;
   }
   return 0;
@@ -90,16 +90,17 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
 
 /// Those that the question leaves open. A split that was asked for says nothing of the solver: the
 /// whole instance stands for its pieces.
-std::vector<MethodEstimate> candidates(const AutoQuestion& question, const CostModel& model) {
-  std::vector<MethodEstimate> result;
+std::vector<Candidate> candidates(const AutoQuestion& question, const CostModel& model) {
+  std::vector<Candidate> result;
   for (MethodEstimate& method : model.estimate(question.features, question.objective)) {
     const bool solver_fits = question.solver == "auto" ? has(question.solvers, method.solver)
                                                        : question.solver == method.solver;
     const bool worth_it = method.split == "none" || method.seconds >= kLeastToSplitSec;
     const bool split_fits = question.split == "auto" ? worth_it : method.split == "none";
     if (!solver_fits || !split_fits) continue;
+    const double processor_sec = method.seconds;
     method.seconds = wallSeconds(method, question.threads);
-    result.push_back(std::move(method));
+    result.push_back({std::move(method), processor_sec});
   }
   return result;
 }
@@ -116,7 +117,7 @@ bool isSooner(const MethodEstimate& a, const MethodEstimate& b) { return a.secon
 
 /// The loose plan where it is wanted; then what is soon, those as good as the best in the model's
 /// order and the others by cost; then what is not, by time.
-void sortBestFirst(std::vector<MethodEstimate>& methods, bool loose) {
+void sortBestFirst(std::vector<Candidate>& methods, bool loose) {
   const double soonest_sec = std::min_element(methods.begin(), methods.end(), isSooner)->seconds;
   const double soon_sec = kAsSoon * soonest_sec;
   double least = std::numeric_limits<double>::infinity();
@@ -138,7 +139,7 @@ void sortBestFirst(std::vector<MethodEstimate>& methods, bool loose) {
 }  // namespace
 
 AutoChoice chooseMethod(const AutoQuestion& question, const CostModel& model) {
-  std::vector<MethodEstimate> methods = candidates(question, model);
+  std::vector<Candidate> methods = candidates(question, model);
   if (methods.empty()) {
     return {question.solver == "auto" ? question.solvers.front() : question.solver,
             question.split == "auto" ? "none" : question.split, "nothing is known of it", 0, 0};
@@ -151,11 +152,11 @@ AutoChoice chooseMethod(const AutoQuestion& question, const CostModel& model) {
                                [most](const MethodEstimate& m) { return m.excess > most; }),
                 methods.end());
   sortBestFirst(methods, loose);
-  const MethodEstimate& first = methods.front();
+  const Candidate& first = methods.front();
   AutoChoice choice{first.solver, question.split == "auto" ? first.split : question.split,
                     inSeconds(first.seconds) + " expected",
                     first.solver == kLastResort ? 0 : last_resort_sec,
-                    turnOf(first, question, model)};
+                    turnOf(first, question.features)};
   if (methods.size() > 1) {
     choice.reason += ", " + inSeconds(methods[1].seconds) + " by " + methods[1].solver;
     if (methods[1].split != "none") choice.reason += " in " + methods[1].split;

@@ -21,7 +21,7 @@ constexpr std::uint64_t kMostMargin = 1U << 20;
 
 // Where robots crowd, passes can take many times what the search has taken. They end once they have
 // expanded half as many states, or four times as many while the plan costs far more than its bound,
-// as searches gain most then (warehouse-10-20-10-2-1, 1000 robots: 2.0 to 1.95 and to 1.65 of it).
+// as searches gain most then (warehouse-10-20-10-2-1, 1000 robots: 2.0 to 1.95 and to 1.63 of it).
 constexpr double kPolishEffort = 0.5;
 constexpr double kMostPolishEffort = 4;
 constexpr double kDear = 1.7;
@@ -123,8 +123,8 @@ SolverInfo LacamSolver::info() {
         "steps that a scattered path may be longer than the shortest"},
        {"swap", flag(defaults.swap), "robots that block each other in corridors change places"},
        {"polish", std::to_string(defaults.polish),
-        "passes over the plan found that give robots earlier paths, within the search's own "
-        "effort, or four times that where the plan costs far more than its bound"},
+        "passes over the plan found that give robots earlier paths, for half the search's "
+        "expansions, or four times these while the plan costs far more than its bound"},
        {"memory", std::to_string(defaults.memory),
         "MiB that configurations may take before the search gives up"}},
       [](const SolverOptions& options) { return std::make_unique<LacamSolver>(options); }};

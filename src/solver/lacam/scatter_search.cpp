@@ -45,20 +45,23 @@ void Crossings::remove(const Path& path) {
   if (!path.empty()) ended_[path.back()] = kNever;
 }
 
+template <typename Found>
+void Crossings::forEachAt(Vertex v, std::uint32_t t, Found found) const {
+  const std::vector<std::uint32_t>& keys = visits_[v];
+  auto key = std::lower_bound(keys.begin(), keys.end(), t << kFromBits);
+  for (; key != keys.end() && *key >> kFromBits == t; ++key) found(*key);
+}
+
 std::array<std::uint32_t, Crossings::kDirections> Crossings::arrivals(Vertex v,
                                                                       std::uint32_t t) const {
   std::array<std::uint32_t, kDirections> counts{};
-  const std::vector<std::uint32_t>& keys = visits_[v];
-  auto key = std::lower_bound(keys.begin(), keys.end(), t << kFromBits);
-  for (; key != keys.end() && *key >> kFromBits == t; ++key) ++counts[*key % kDirections];
+  forEachAt(v, t, [&counts](std::uint32_t key) { ++counts[key % kDirections]; });
   return counts;
 }
 
 std::uint32_t Crossings::count(Vertex v, std::uint32_t t) const {
   std::uint32_t count = ended_[v] < t ? 1 : 0;
-  const std::vector<std::uint32_t>& keys = visits_[v];
-  auto key = std::lower_bound(keys.begin(), keys.end(), t << kFromBits);
-  for (; key != keys.end() && *key >> kFromBits == t; ++key) ++count;
+  forEachAt(v, t, [&count](std::uint32_t) { ++count; });
   return count;
 }
 

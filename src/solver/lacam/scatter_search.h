@@ -15,7 +15,8 @@ namespace split_mapf {
 /// thread-safe.
 class Crossings {
  public:
-  static constexpr std::size_t kDirections = 4;
+  static constexpr std::uint32_t kFromBits = 2;
+  static constexpr std::size_t kDirections = std::size_t{1} << kFromBits;
 
   explicit Crossings(const Graph& graph);
 
@@ -28,10 +29,12 @@ class Crossings {
   std::uint32_t count(Vertex v, std::uint32_t t) const;
 
  private:
-  static constexpr std::uint32_t kFromBits = 2;
   static constexpr std::uint32_t kNever = 0xffffffffU;
 
   std::uint32_t keyOf(Vertex from, Vertex to, std::uint32_t t) const;
+  /// Calls `found` with the key of each path that comes to `v` at step `t`.
+  template <typename Found>
+  void forEachAt(Vertex v, std::uint32_t t, Found found) const;
   template <typename Change>
   void visit(const Path& path, Change change) const;
 
