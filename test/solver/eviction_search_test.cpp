@@ -145,10 +145,15 @@ Cost costInCase(const Case& c, const Path& path) {
   return {weight + holdWeight(c, arrival), arrival};
 }
 
-class RandomCases : public ::testing::TestWithParam<bool> {};
+struct Run {
+  bool may_evict;
+  std::uint32_t distance_weight;
+};
+
+class RandomCases : public ::testing::TestWithParam<Run> {};
 
 TEST_P(RandomCases, LeastWeightThenEarliestArrival) {
-  const bool may_evict = GetParam();
+  const auto [may_evict, distance_weight] = GetParam();
   std::uint32_t found = 0;
   for (std::uint64_t seed = 0; seed < 4000; ++seed) {
     const Case c = randomCase(seed);
@@ -163,6 +168,7 @@ TEST_P(RandomCases, LeastWeightThenEarliestArrival) {
     query.weights = may_evict ? &c.weights : nullptr;
     query.departure = c.departure;
     query.latest_arrival = c.latest_arrival;
+    query.distance_weight = distance_weight;
     const GapAnswer answer = search.search(query, Deadline());
     const std::optional<Cost> best = leastCost(c, may_evict);
     ASSERT_EQ(!answer.path.empty(), best.has_value()) << "seed " << seed;
@@ -170,7 +176,13 @@ TEST_P(RandomCases, LeastWeightThenEarliestArrival) {
     ++found;
     EXPECT_EQ(answer.path.front(), c.start);
     EXPECT_EQ(answer.path.back(), c.goal);
-    EXPECT_EQ(costInCase(c, answer.path), *best) << "seed " << seed;
+    const Cost cost = costInCase(c, answer.path);
+    EXPECT_EQ(cost.first, best->first) << "seed " << seed;
+    EXPECT_LE(cost.second, c.latest_arrival) << "seed " << seed;
+    // Who evicts nobody is never hasty.
+    if (distance_weight == 1 || cost.first == 0) {
+      EXPECT_EQ(cost, *best) << "seed " << seed;
+    }
     std::vector<std::uint32_t> met;
     for (std::uint32_t i = 0; i < c.placed.size(); ++i) {
       if (test::meet(c.placed[i], answer.path)) met.push_back(i);
@@ -180,9 +192,11 @@ TEST_P(RandomCases, LeastWeightThenEarliestArrival) {
   EXPECT_GT(found, 1000U);
 }
 
-INSTANTIATE_TEST_SUITE_P(EvictionSearch, RandomCases, ::testing::Bool(),
-                         [](const ::testing::TestParamInfo<bool>& run) {
-                           return run.param ? "MayEvict" : "MayNotEvict";
+INSTANTIATE_TEST_SUITE_P(EvictionSearch, RandomCases,
+                         ::testing::Values(Run{false, 1}, Run{true, 1}, Run{true, 2}),
+                         [](const ::testing::TestParamInfo<Run>& run) {
+                           if (!run.param.may_evict) return "MayNotEvict";
+                           return run.param.distance_weight == 1 ? "MayEvict" : "MayEvictInHaste";
                          });
 
 TEST(GapSearch, GoesOnFromWhereARobotIsUnderWay) {

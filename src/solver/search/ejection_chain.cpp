@@ -60,11 +60,12 @@ void EjectionChain::eject(std::uint32_t robot, const Path& by, std::uint32_t rea
   link.kept = 0;
 }
 
-Path EjectionChain::search(const Link& link, std::uint32_t latest_arrival, bool may_eject,
-                           const Deadline& deadline) {
-  const EvictionQuery query = {
-      queryFrom(link.path, link.kept, instance_.distances(link.robot), *table_, latest_arrival),
-      may_eject ? &weights_ : nullptr};
+Path EjectionChain::search(const ChainStart& start, const Link& link, std::uint32_t latest_arrival,
+                           bool may_eject, const Deadline& deadline) {
+  EvictionQuery query = {
+      queryFrom(link.path, link.kept, instance_.distances(link.robot), *table_, latest_arrival)};
+  query.weights = may_eject ? &weights_ : nullptr;
+  query.distance_weight = start.distance_weight;
   GapAnswer answer = search_.search(query, deadline);
   expansions_ += answer.expansions;
   if (!answer.path.empty()) std::copy_n(link.path.begin(), link.kept, answer.path.begin());
@@ -81,7 +82,7 @@ bool EjectionChain::placeNext(const ChainStart& start, const Deadline& deadline)
   const std::int64_t most = oldCost(links_[index]) + (is_first ? -1 : spare_);
   const std::int64_t latest = std::min<std::int64_t>(most, latest_arrival_);
   if (latest < 0) return false;
-  Path path = search(links_[index], static_cast<std::uint32_t>(latest), may_eject, deadline);
+  Path path = search(start, links_[index], static_cast<std::uint32_t>(latest), may_eject, deadline);
   if (path.empty()) return false;
   waiting_.pop_front();
   const std::uint32_t robot = links_[index].robot;

@@ -28,6 +28,7 @@ struct ChainStart {
   std::uint32_t reach = 0;   ///< robots change their paths so many steps before they have to
   std::uint32_t loss = 0;    ///< by how much the sum of costs may grow
   std::size_t searches = 1;  ///< paths that may be searched for
+  std::uint32_t distance_weight = 1;  ///< of the searches, see EvictionQuery
 };
 
 /// Improves a valid plan for sum of costs by a chain of ejections: a robot takes the earlier path
@@ -68,8 +69,8 @@ class EjectionChain {
 
   bool placeAll(const ChainStart& start, const Deadline& deadline);
   bool placeNext(const ChainStart& start, const Deadline& deadline);
-  Path search(const Link& link, std::uint32_t latest_arrival, bool may_eject,
-              const Deadline& deadline);
+  Path search(const ChainStart& start, const Link& link, std::uint32_t latest_arrival,
+              bool may_eject, const Deadline& deadline);
   void eject(std::uint32_t robot, const Path& by, std::uint32_t reach);
   Link& linkOf(std::uint32_t robot);
   std::int64_t costOf(const Path& path) const { return static_cast<std::int64_t>(path.size() - 1); }

@@ -233,7 +233,8 @@ void EvictionSearch::moveIntoGaps(const State& state, std::uint32_t index, Verte
                 [&](std::uint32_t first) {
                   const std::uint32_t end =
                       reached.markGap(placed, to, first, latest_arrival_ - distance + 1);
-                  queue_.push({to, first, end, kNone, index}, first + distance);
+                  queue_.push({to, first, end, kNone, index},
+                              first + std::size_t{query_->distance_weight} * distance);
                 });
 }
 
