@@ -102,7 +102,7 @@ class Refinement {
         Placement::Effort effort;
         effort.patience = patience_ * instance_.robots();
         effort.delayed_one_in = Placement::kDelayedOneIn;
-        effort.distance_weight = Placement::kHasty;
+        effort.hasty = true;
         if (placement.run(horizon, effort, deadline) != Placement::Outcome::kDone) return;
         const std::lock_guard<std::mutex> lock(mutex);
         if (!found) found = placement.plan();

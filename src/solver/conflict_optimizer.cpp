@@ -61,7 +61,7 @@ SolveResult ConflictOptimizerSolver::solve(const Instance& instance,
   effort.patience =
       std::max<std::uint64_t>(1, settings_.patience * std::max(kFewRobots, instance.robots()));
   effort.expansion_limit = expansion_limit_;
-  if (objective_ == Objective::kMakespan) effort.distance_weight = Placement::kHasty;
+  effort.hasty = objective_ == Objective::kMakespan;
   // Longer than this no robot has to travel on any but pathological graphs.
   const std::uint64_t longest = std::uint64_t{4} * (bound + instance.graph().size());
   std::uint64_t slack = objective_ == Objective::kMakespan ? 0 : settings_.slack;

@@ -65,7 +65,7 @@ Path EjectionChain::search(const ChainStart& start, const Link& link, std::uint3
   EvictionQuery query = {
       queryFrom(link.path, link.kept, instance_.distances(link.robot), *table_, latest_arrival)};
   query.weights = may_eject ? &weights_ : nullptr;
-  query.distance_weight = start.distance_weight;
+  query.hasty = start.hasty;
   GapAnswer answer = search_.search(query, deadline);
   expansions_ += answer.expansions;
   if (!answer.path.empty()) std::copy_n(link.path.begin(), link.kept, answer.path.begin());

@@ -28,7 +28,7 @@ struct ChainStart {
   std::uint32_t reach = 0;   ///< robots change their paths so many steps before they have to
   std::uint32_t loss = 0;    ///< by how much the sum of costs may grow
   std::size_t searches = 1;  ///< paths that may be searched for
-  std::uint32_t distance_weight = 1;  ///< of the searches, see EvictionQuery
+  bool hasty = false;        ///< see EvictionQuery
 };
 
 /// Improves a valid plan for sum of costs by a chain of ejections: a robot takes the earlier path

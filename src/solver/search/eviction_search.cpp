@@ -101,7 +101,7 @@ void EvictionSearch::leaveGaps() {
   for (const GapSearch::State& state : gaps_.states()) {
     const std::uint32_t index =
         queue_.add({state.vertex, state.time, state.leave_by, kNone, state.parent});
-    if (!gaps_.isOutdated(state)) queue_.open(index, estimateOf(index));
+    if (!gaps_.isOutdated(state)) queue_.open(index, keyOf(index));
   }
   while (!queue_.empty()) {
     expanded_.push_back(queue_.pop());
@@ -124,18 +124,17 @@ void EvictionSearch::open(std::uint32_t index) {
     if (gaps_.reached()(state.vertex, state.time)) return;
     gaps_.reached().mark(state.vertex, state.time, state.end);
   }
-  queue_.open(index, estimateOf(index));
+  queue_.open(index, keyOf(index));
 }
 
 bool EvictionSearch::hasTurn() {
   return !queue_.empty() || evicted_ < turn_.size() || openNextWeight();
 }
 
-/// Whether evicting from the state that has its turn could lead to an earlier arrival than all that
-/// is open.
+/// Whether the state from which somebody could be evicted next comes before all that is open.
 bool EvictionSearch::isEvictionsTurn() {
   if (evicted_ == turn_.size()) return false;
-  return queue_.empty() || estimateOf(turn_[evicted_]) < queue_.leastKey();
+  return queue_.empty() || keyOf(turn_[evicted_]) < queue_.leastKey();
 }
 
 bool EvictionSearch::openNextWeight() {
@@ -233,8 +232,7 @@ void EvictionSearch::moveIntoGaps(const State& state, std::uint32_t index, Verte
                 [&](std::uint32_t first) {
                   const std::uint32_t end =
                       reached.markGap(placed, to, first, latest_arrival_ - distance + 1);
-                  queue_.push({to, first, end, kNone, index},
-                              first + std::size_t{query_->distance_weight} * distance);
+                  queue_.push({to, first, end, kNone, index}, keyOf(first, distance));
                 });
 }
 

@@ -151,7 +151,7 @@ std::int64_t NeighbourhoodSearch::tryChain(const Deadline& deadline, const Accep
   start.event = drawLostStep(start.path, instance_.distances(start.robot), engine_);
   start.reach = kChainReaches[chain_reaches_.draw(engine_)];
   start.searches = kChainSearches[chain_searches_.draw(engine_)];
-  start.distance_weight = kDistanceWeights[distance_weights_.draw(engine_)];
+  start.hasty = chain_hastes_.draw(engine_) == 1;
   start.loss = static_cast<std::uint32_t>(drawLoss(temperature));
   const bool placed = chain_.run(start, plan_, table_, deadline);
   const bool taken = placed && accept(chain_.changes());
@@ -175,7 +175,7 @@ std::int64_t NeighbourhoodSearch::tryOne(const Deadline& deadline, const Accept&
   if (chain) {
     chain_reaches_.reward(rate);
     chain_searches_.reward(rate);
-    distance_weights_.reward(rate);
+    chain_hastes_.reward(rate);
   }
   return gain;
 }

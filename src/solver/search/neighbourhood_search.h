@@ -56,8 +56,6 @@ class NeighbourhoodSearch {
   enum Method { kChain, kNeighbourhood, kMethods };
   static constexpr std::array<std::size_t, 2> kChainSearches = {8, 32};
   static constexpr std::array<std::uint32_t, 3> kChainReaches = {4, 16, 64};
-  // The hasty chains gain more where robots crowd, the others where each has much room.
-  static constexpr std::array<std::uint32_t, 2> kDistanceWeights = {1, 2};
 
   std::int64_t tryChain(const Deadline& deadline, const Accept& accept, double temperature);
   std::int64_t tryNeighbourhood(const Deadline& deadline, const Accept& accept, double temperature);
@@ -76,7 +74,7 @@ class NeighbourhoodSearch {
   AdaptiveChoice<kMethods> methods_;
   AdaptiveChoice<kChainSearches.size()> chain_searches_;
   AdaptiveChoice<kChainReaches.size()> chain_reaches_;
-  AdaptiveChoice<kDistanceWeights.size()> distance_weights_;
+  AdaptiveChoice<2> chain_hastes_;  // haste gains more where robots crowd, less elsewhere
   GapSearch search_;
   WaitPlacer waits_;
   EjectionChain chain_;

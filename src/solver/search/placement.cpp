@@ -76,7 +76,7 @@ void Placement::searchBatch(std::uint32_t horizon, const Effort& effort, const D
                   EvictionQuery query;
                   query.placed = &table_;
                   query.weights = effort.displacements > 0 ? &weights_ : nullptr;
-                  query.distance_weight = effort.distance_weight;
+                  query.hasty = effort.hasty;
                   query.latest_arrival = horizon;
                   query.start = instance_.start(candidate.robot);
                   query.distances = &instance_.distances(candidate.robot);

@@ -27,9 +27,6 @@ class Placement {
   static constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};
   /// Placings that depart late, once a horizon has proved hard.
   static constexpr std::uint32_t kDelayedOneIn = 4;
-  /// A distance weight for who wants a plan within the horizon and no more: the makespan is met a
-  /// fifth to a third sooner where robots crowd.
-  static constexpr std::uint32_t kHasty = 2;
   enum class Outcome { kDone, kSpent, kExhausted, kInterrupted };
 
   /// @param queue  everybody, in the order of the first placing. The instance outlives this object.
@@ -50,8 +47,8 @@ class Placement {
     /// One placing in so many departs a random while later, as some knots need a robot that lets
     /// the others pass first; 0: none does.
     std::uint32_t delayed_one_in = 0;
-    /// See EvictionQuery.
-    std::uint32_t distance_weight = 1;
+    /// See EvictionQuery: for who wants a plan within the horizon, and no more.
+    bool hasty = false;
   };
   /// Places who waits until nobody does or the effort is spent. @pre horizon >= every robot's
   /// shortest path.
