@@ -1,24 +1,10 @@
 #include "pipeline/incumbent.h"
 
-#include <algorithm>
 #include <utility>
 
+#include "split_mapf/core/collision.h"
+
 namespace split_mapf {
-namespace {
-
-bool conflict(const Path& a, const Path& b) {
-  const auto end = static_cast<std::uint32_t>(std::max(a.size(), b.size()));
-  for (std::uint32_t t = 0; t < end; ++t) {
-    if (positionAt(a, t) == positionAt(b, t)) return true;
-    if (t > 0 && positionAt(a, t) == positionAt(b, t - 1) &&
-        positionAt(a, t - 1) == positionAt(b, t)) {
-      return true;
-    }
-  }
-  return false;
-}
-
-}  // namespace
 
 Incumbent::Incumbent(Plan plan) : plan_(std::move(plan)) {}
 
@@ -36,7 +22,7 @@ bool Incumbent::conflictsWithLater(std::uint64_t seen,
   for (std::size_t i = seen - first_; i < log_.size(); ++i) {
     for (const PathChange& later : log_[i]) {
       for (const PathChange& change : changes) {
-        if (later.robot == change.robot || conflict(plan_.paths[later.robot], change.path)) {
+        if (later.robot == change.robot || firstConflict(plan_.paths[later.robot], change.path)) {
           return true;
         }
       }

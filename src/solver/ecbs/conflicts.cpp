@@ -7,26 +7,19 @@ namespace split_mapf {
 void ConflictFinder::find(std::uint32_t robot, const Path& path, const PathTable& table,
                           std::vector<Conflict>& out) {
   const std::size_t first = out.size();
-  Vertex previous = kNoVertex;
-  forEachStay(path, [&](Vertex v, std::uint32_t begin, std::uint32_t end, Vertex) {
-    for (const Stay& stay : table.at(v)) {
-      if (stay.begin >= end) break;
-      if (stay.robot == robot) continue;
-      if (stay.end == begin && previous != kNoVertex && stay.next == previous) {
-        note({Conflict::Kind::kSwap, robot, stay.robot, begin, previous, v}, stay.robot, first,
-             out);
-      }
-      if (stay.end <= begin) continue;
-      const std::uint32_t step = std::max(begin, stay.begin);
-      Conflict conflict{Conflict::Kind::kVertex, robot, stay.robot, step, v, kNoVertex};
-      if (targets_ && stay.end == kForever) {
-        conflict.kind = Conflict::Kind::kTarget;
-      } else if (targets_ && end == kForever) {
-        conflict = {Conflict::Kind::kTarget, stay.robot, robot, step, v, kNoVertex};
-      }
-      note(conflict, stay.robot, first, out);
+  forEachConflict(table, path, [&](const Stay& stay, const PathVisit& visit, bool swaps) {
+    if (stay.robot == robot) return;
+    const Vertex v = visit.vertex;
+    const std::uint32_t step = std::max(visit.begin, stay.begin);
+    Conflict conflict{Conflict::Kind::kVertex, robot, stay.robot, step, v, kNoVertex};
+    if (swaps) {
+      conflict = {Conflict::Kind::kSwap, robot, stay.robot, visit.begin, visit.before, v};
+    } else if (targets_ && stay.end == kForever) {
+      conflict.kind = Conflict::Kind::kTarget;
+    } else if (targets_ && visit.end == kForever) {
+      conflict = {Conflict::Kind::kTarget, stay.robot, robot, step, v, kNoVertex};
     }
-    previous = v;
+    note(conflict, stay.robot, first, out);
   });
   for (std::size_t i = first; i < out.size(); ++i) {
     slot_[out[i].first == robot ? out[i].second : out[i].first] = kNoSlot;

@@ -3,21 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "split_mapf/core/collision.h"
+
 namespace split_mapf {
 namespace {
 
 // Keeps the weight of a path within 32 bits.
 constexpr std::uint32_t kMostWeight = 1024;
-
-/// The first step at which the robots meet. @pre they do.
-std::uint32_t firstMeeting(const Path& a, const Path& b) {
-  for (std::uint32_t t = 0;; ++t) {
-    if (positionAt(a, t) == positionAt(b, t)) return t;
-    if (positionAt(a, t) == positionAt(b, t + 1) && positionAt(b, t) == positionAt(a, t + 1)) {
-      return t + 1;
-    }
-  }
-}
 
 }  // namespace
 
@@ -50,7 +42,7 @@ void EjectionChain::eject(std::uint32_t robot, const Path& by, std::uint32_t rea
   if (!link.waits) {
     spare_ += costOf(link.path) - oldCost(link);
     wait(static_cast<std::size_t>(&link - links_.data()),
-         keptUntil(link.path, firstMeeting(by, link.path), reach));
+         keptUntil(link.path, *firstConflict(by, link.path), reach));
     return;
   }
   // It waits for its turn, and even what it keeps is in the way: it will begin at its start.

@@ -91,15 +91,8 @@ std::uint32_t PathTable::countSwaps(std::uint32_t robot, Vertex from, Vertex to,
 
 std::vector<std::uint32_t> robotsInTheWay(const PathTable& placed, const Path& path) {
   std::vector<std::uint32_t> robots;
-  Vertex before = kNoVertex;
-  forEachStay(path, [&](Vertex v, std::uint32_t begin, std::uint32_t end, Vertex) {
-    for (const Stay& stay : placed.at(v)) {
-      if (stay.begin >= end) break;
-      const bool meets = stay.end > begin;
-      const bool swaps = stay.end == begin && before != kNoVertex && stay.next == before;
-      if (meets || swaps) robots.push_back(stay.robot);
-    }
-    before = v;
+  forEachConflict(placed, path, [&robots](const Stay& stay, const PathVisit&, bool) {
+    robots.push_back(stay.robot);
   });
   std::sort(robots.begin(), robots.end());
   robots.erase(std::unique(robots.begin(), robots.end()), robots.end());

@@ -45,6 +45,34 @@ class PathTable {
   mutable TimelineBuilder builder_;
 };
 
+/// A visit of a path, and the vertex that the robot comes from; kNoVertex for its first visit.
+struct PathVisit {
+  Vertex vertex;
+  std::uint32_t begin;
+  std::uint32_t end;
+  Vertex before;
+};
+
+/// Calls note(stay, visit, swaps) for each placed visit that a path conflicts with, by meeting it
+/// or by swapping places with it, in the order of the path. The rule of core/collision.h for whole
+/// visits. Cost: O(visits to the path's vertices).
+template <typename Note>
+void forEachConflict(const PathTable& placed, const Path& path, Note note) {
+  Vertex before = kNoVertex;
+  forEachStay(path, [&](Vertex v, std::uint32_t begin, std::uint32_t end, Vertex) {
+    const PathVisit visit{v, begin, end, before};
+    for (const Stay& stay : placed.at(v)) {
+      if (stay.begin >= end) break;
+      if (stay.end > begin) {
+        note(stay, visit, false);
+      } else if (stay.end == begin && before != kNoVertex && stay.next == before) {
+        note(stay, visit, true);
+      }
+    }
+    before = v;
+  });
+}
+
 /// The placed robots that a path conflicts with: at a vertex, by a swap, or because one holds its
 /// goal for good. Each once, in ascending order. Cost: O(visits to the path's vertices).
 std::vector<std::uint32_t> robotsInTheWay(const PathTable& placed, const Path& path);
