@@ -31,13 +31,14 @@ constexpr double kLeastReserveSec = 0.5;
 }  // namespace
 
 PlanRun::PlanRun(const Instance& instance, CheckedRequest request, const SolverRegistry& solvers,
-                 Executor& executor, const Deadline& deadline, const ProgressCallback& progress)
+                 Executor& executor, const Deadline& deadline, const PlanListener& listener)
     : instance_(instance),
       request_(std::move(request)),
       executor_(executor),
       deadline_(deadline),
       solve_deadline_(deadline),
-      log_(progress),
+      log_(listener.progress),
+      better_plan_(listener.better_plan),
       checker_(instance.graph()),
       solvers_(solvers),
       piece_solver_(request_, solvers, executor, solve_deadline_, log_) {
@@ -335,6 +336,10 @@ void PlanRun::accept(Plan plan) {
       {now_sec, report_.makespan, report_.sum_of_costs, report_.proved_lower_bound});
   judge();
   log_.setPlan(report_.makespan, report_.sum_of_costs);
+  if (!better_plan_) return;
+  report_.runtime_sec = now_sec;
+  report_.stages = log_.stages();
+  better_plan_(report_);
 }
 
 void PlanRun::judge() {

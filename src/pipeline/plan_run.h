@@ -18,7 +18,7 @@ namespace split_mapf {
 class PlanRun {
  public:
   PlanRun(const Instance& instance, CheckedRequest request, const SolverRegistry& solvers,
-          Executor& executor, const Deadline& deadline, const ProgressCallback& progress);
+          Executor& executor, const Deadline& deadline, const PlanListener& listener);
   PlanReport run();
 
  private:
@@ -62,6 +62,7 @@ class PlanRun {
   const Deadline& deadline_;
   Deadline solve_deadline_;  ///< of what `auto` chose: earlier, so that others get a turn
   RunLog log_;
+  const BetterPlanCallback& better_plan_;
   SolvabilityChecker checker_;
   const SolverRegistry& solvers_;
   PieceSolver piece_solver_;

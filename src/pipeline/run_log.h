@@ -5,8 +5,7 @@
 #include <string>
 
 #include "split_mapf/core/deadline.h"
-#include "split_mapf/core/plan_report.h"
-#include "split_mapf/pipeline/planner.h"
+#include "split_mapf/pipeline/plan_listener.h"
 
 namespace split_mapf {
 

@@ -71,8 +71,9 @@ PreparedGoal GoalPlanner::prepare(const boost::shared_ptr<const PlanPathsGoal>& 
 GoalAnswer GoalPlanner::plan(const PreparedGoal& goal, const Deadline& deadline,
                              const ProgressCallback& progress) const {
   // Whether a space split fits is known only with the map.
-  const PlanReport report = withGoalErrors(
-      [&] { return planner_.plan(goal.instance, goal.options.plan, deadline, progress); });
+  const PlanReport report = withGoalErrors([&] {
+    return planner_.plan(goal.instance, goal.options.plan, deadline, {progress, nullptr});
+  });
   GoalAnswer answer;
   answer.outcome = outcomeOf(report.termination);
   answer.result.message = sentenceOf(report);

@@ -25,4 +25,12 @@ void requireWritable(const std::string& path) {
   }
 }
 
+void requireReplaceable(const std::string& path) {
+  std::error_code ignored;
+  const bool exists = std::filesystem::exists(path, ignored);
+  if (exists && !std::filesystem::is_regular_file(path, ignored)) {
+    throw InputError(path + ": is no plain file; one that can be replaced is expected");
+  }
+}
+
 }  // namespace split_mapf::tool

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <new>
@@ -94,11 +95,16 @@ class PlanCall {
       liftMemoryLimit();
       return outOfMemory(options_.request, options_.agents.value_or(0), "reading files");
     }
-    ProgressCallback tell;
-    if (progress_) tell = [this](const PlanProgress& progress) { progress_->update(progress); };
+    PlanListener listener;
+    if (progress_) {
+      listener.progress = [this](const PlanProgress& progress) { progress_->update(progress); };
+    }
+    if (options_.write_better) {
+      listener.better_plan = [this](const PlanReport& report) { replaceOutput(report); };
+    }
     const Deadline deadline(remainingSec(options_, begin_of_call_), stop_);
     try {
-      return planner.plan(*instance_, options_.request, deadline, tell);
+      return planner.plan(*instance_, options_.request, deadline, listener);
     } catch (const std::bad_alloc&) {
       liftMemoryLimit();
       return outOfMemory(options_.request, instance_->robots(), "planning");
@@ -114,6 +120,13 @@ class PlanCall {
     } else {
       writePlanJson(options_.output_file, grid, report);
     }
+  }
+
+  /// Whoever reads the file meets one whole result, the last or this one.
+  void replaceOutput(const PlanReport& report) const {
+    const std::string part = options_.output_file + ".part";
+    writePlanJson(part, instance_->grid(), report);
+    std::filesystem::rename(part, options_.output_file);
   }
 
   PlanOptions options_;
@@ -133,6 +146,7 @@ ExitCode runPlan(const Call& call) {
   PlanOptions options = readPlanOptions(line);
   if (!options.output_file.empty() && options.output_file != "-") {
     requireWritable(options.output_file);
+    if (options.write_better) requireReplaceable(options.output_file);
   }
   return PlanCall(std::move(options), call.begin_of_call).run();
 }

@@ -48,6 +48,8 @@ void declarePlanOptions(CommandLine& line) {
              "share of the time limit that may go into improving a found plan (" +
                  textOf(defaults.refine_sec) + ")");
   line.offer("output", "FILE", "write the result as JSON; - for standard output");
+  line.offerFlag("write-better",
+                 "write the --output file with each better plan, while --refine goes on");
   line.offerFlag("progress", "show a progress line also where standard error is no terminal");
   line.offerFlag("quiet", "print nothing but errors");
 }
@@ -78,6 +80,10 @@ PlanOptions readPlanOptions(const CommandLine& line) {
     options.memory_limit_mib = line.wholeNumber("memory-limit", 0, 1, kMostMib);
   }
   options.output_file = line.text("output", "");
+  options.write_better = line.has("write-better");
+  if (options.write_better && (options.output_file.empty() || options.output_file == "-")) {
+    throw OptionError("option --write-better needs a file: --output FILE");
+  }
   options.quiet = line.has("quiet");
   if (options.quiet && line.has("progress")) {
     throw OptionError("options --progress and --quiet exclude each other");

@@ -16,7 +16,8 @@ struct PlanOptions {
   std::optional<std::uint32_t> agents;
   PlanRequest request;  ///< `threads` is set
   std::optional<std::uint64_t> memory_limit_mib;
-  std::string output_file;  ///< empty: none; "-": standard output
+  std::string output_file;    ///< empty: none; "-": standard output
+  bool write_better = false;  ///< the output file is written with each better plan
   bool progress = false;
   bool quiet = false;
 };

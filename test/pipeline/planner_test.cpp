@@ -209,9 +209,11 @@ TEST(Planner, RefinesWithinItsShareOfTheTime) {
   request.refine_sec = 0.3;
   std::vector<std::uint64_t> sums;
   const PlanReport report = Planner(builtinSolvers(), executor)
-                                .plan(instance, request, Deadline(20), [&](const PlanProgress& p) {
-                                  if (p.sum_of_costs > 0) sums.push_back(p.sum_of_costs);
-                                });
+                                .plan(instance, request, Deadline(20),
+                                      {[&](const PlanProgress& p) {
+                                         if (p.sum_of_costs > 0) sums.push_back(p.sum_of_costs);
+                                       },
+                                       nullptr});
   ASSERT_TRUE(report.plan);
   EXPECT_TRUE(validate(instance, *report.plan).empty());
   EXPECT_EQ(report.sum_of_costs, sumOfCostsOf(*report.plan));
@@ -223,6 +225,29 @@ TEST(Planner, RefinesWithinItsShareOfTheTime) {
   EXPECT_EQ(report.trace.back().sum_of_costs, report.sum_of_costs);
   ASSERT_FALSE(sums.empty()) << "the progress tells of the plan";
   EXPECT_EQ(sums.back(), report.sum_of_costs);
+}
+
+TEST(Planner, HandsOutEachBetterPlanAsItIsFound) {
+  Executor executor(2);
+  const Instance instance = test::generatedInstance(16, 0.1, 60, 1);
+  PlanRequest request = requestFor("conflict_optimizer", "none");
+  request.objective = Objective::kSumOfCosts;
+  request.refine_sec = 0.3;
+  std::vector<PlanReport> better;
+  const PlanReport report = Planner(builtinSolvers(), executor)
+                                .plan(instance, request, Deadline(20),
+                                      {nullptr, [&](const PlanReport& r) { better.push_back(r); }});
+  ASSERT_GE(better.size(), 2U) << "the first plan of this request is not the best";
+  ASSERT_EQ(better.size(), report.trace.size());
+  for (std::size_t i = 0; i < better.size(); ++i) {
+    ASSERT_TRUE(better[i].plan);
+    EXPECT_TRUE(validate(instance, *better[i].plan).empty());
+    EXPECT_EQ(better[i].termination, Termination::kSolved);
+    EXPECT_EQ(better[i].sum_of_costs, sumOfCostsOf(*better[i].plan));
+    EXPECT_EQ(better[i].sum_of_costs, report.trace[i].sum_of_costs);
+    EXPECT_FALSE(better[i].message.empty());
+  }
+  EXPECT_EQ(better.back().plan->paths, report.plan->paths);
 }
 
 TEST(Planner, NamesTheRobotThatIsCutOff) {
@@ -327,7 +352,7 @@ TEST(Planner, TellsHowFarItIs) {
   std::vector<PlanProgress> seen;
   Planner(builtinSolvers(), executor)
       .plan(crossing(), requestFor("ecbs", "3t"), Deadline(),
-            [&](const PlanProgress& progress) { seen.push_back(progress); });
+            {[&](const PlanProgress& progress) { seen.push_back(progress); }, nullptr});
   ASSERT_FALSE(seen.empty());
   EXPECT_EQ(seen.front().stage, "check");
   std::uint32_t most = 0;

@@ -1,5 +1,6 @@
 """Planning: exit codes, JSON fields, summary, determinism."""
 
+import os
 import re
 import time
 import unittest
@@ -25,6 +26,32 @@ class PlanTest(CommandTest):
         self.assertEqual(costs[-1], refined["sum_of_costs"])
         self.assertLess(refined["runtime_s"], 10)
         self.expect(0, "validate", *self.files("g"), "--plan", "g.json")
+
+    def test_writes_each_better_plan_while_it_refines(self):
+        self.generate("g", "--width", 16, "--height", 16, "--density", 0.1, "--agents", 60)
+        process = self.start("plan", *self.files("g"), "--objective", "sum_of_costs", "--refine", 2,
+                             "--output", "g.json", "--write-better")
+        seen = []
+        while process.poll() is None:
+            if os.path.exists(self.path("g.json")):
+                cost = self.read_json("g.json")["sum_of_costs"]  # a whole file at any moment
+                if cost not in seen:
+                    seen.append(cost)
+            time.sleep(0.01)
+        process.communicate()
+        self.assertGreaterEqual(len(seen), 2)
+        self.assertEqual(seen, sorted(seen, reverse=True))
+        self.assertFalse(os.path.exists(self.path("g.json.part")))
+        self.expect(0, "validate", *self.files("g"), "--plan", "g.json")
+
+    def test_write_better_needs_a_file(self):
+        self.write_problem("p", ["...", "@.@"], [((0, 0), (2, 0))])
+        for output in ([], ["--output", "-"]):
+            result = self.expect(1, "plan", *self.files("p"), "--write-better", *output)
+            self.assertIn("--output FILE", result.stderr)
+        os.mkfifo(self.path("pipe"))
+        result = self.expect(1, "plan", *self.files("p"), "--write-better", "--output", "pipe")
+        self.assertIn("no plain file", result.stderr)
 
     def test_solved(self):
         # Two robots change places in a corridor with a siding: 4 and 3 steps.
