@@ -10,11 +10,11 @@ namespace split_mapf {
 namespace {
 
 /// How long a piece is expected to take, in any unit: longest first keeps the workers busy.
-double expectedEffort(const Decomposition& leaf) {
+double expectedEffort(const Instance& piece) {
   double steps = 0;
-  for (std::uint32_t i = 0; i < leaf.instance->robots(); ++i) {
-    const Cell from = leaf.instance->grid().cellOf(leaf.instance->start(i));
-    const Cell to = leaf.instance->grid().cellOf(leaf.instance->goal(i));
+  for (std::uint32_t i = 0; i < piece.robots(); ++i) {
+    const Cell from = piece.grid().cellOf(piece.start(i));
+    const Cell to = piece.grid().cellOf(piece.goal(i));
     steps += std::abs(from.x - to.x) + std::abs(from.y - to.y);
   }
   return steps;
@@ -24,8 +24,8 @@ double expectedEffort(const Decomposition& leaf) {
 // its search has run into trouble.
 constexpr std::uint64_t kExpansionsAStep = 60;
 
-std::uint64_t usualEffort(const PieceTask& task, const Instance& piece) {
-  return task.least_effort + kExpansionsAStep * sumOfCostsLowerBound(piece);
+std::uint64_t usualBudget(const PieceTask& task) {
+  return task.least_budget + kExpansionsAStep * sumOfCostsLowerBound(*task.piece->instance);
 }
 
 bool endsTheRun(Termination termination) {
@@ -44,7 +44,7 @@ std::vector<SolveResult> PieceSolver::solve(const std::vector<PieceTask>& tasks,
   std::vector<Executor::Job> jobs(tasks.size());
   const std::uint32_t threads = threadsEach(tasks.size());
   for (std::size_t i = 0; i < tasks.size(); ++i) {
-    jobs[i].expected_effort = expectedEffort(*tasks[i].leaf);
+    jobs[i].expected_effort = expectedEffort(*tasks[i].piece->instance);
     jobs[i].run = [&, i] {
       results[i] = solveOne(tasks[i], threads, deadline, rows[first_row + i]);
       if (endsTheRun(results[i].termination)) stop->request();
@@ -55,10 +55,10 @@ std::vector<SolveResult> PieceSolver::solve(const std::vector<PieceTask>& tasks,
   return results;
 }
 
-std::vector<std::string> PieceSolver::rescuers() const {
+std::vector<std::string> PieceSolver::otherSolvers() const {
   const std::vector<std::string> known = solvers_.names();
   std::vector<std::string> result;
-  for (const char* name : {"conflict_optimizer", "lacam", "prioritized", "ecbs"}) {
+  for (const char* name : {"conflict_optimizer", "prioritized", "lacam", "ecbs"}) {
     if (name == request_.solver) continue;
     if (std::find(known.begin(), known.end(), name) != known.end()) result.emplace_back(name);
   }
@@ -73,9 +73,9 @@ std::uint32_t PieceSolver::threadsEach(std::size_t tasks) const {
 SolveResult PieceSolver::solveOne(const PieceTask& task, std::uint32_t threads,
                                   const Deadline& deadline, SubproblemReport& row) const {
   const Deadline::Clock::time_point begin = Deadline::Clock::now();
-  const Instance& piece = *task.leaf->instance;
-  row.phase = task.leaf->phase;
-  row.region = task.leaf->region;
+  const Instance& piece = *task.piece->instance;
+  row.phase = task.piece->phase;
+  row.region = task.piece->region;
   row.agents = piece.robots();
   row.solver = task.solver.empty() ? request_.solver : task.solver;
   SolveResult result;
@@ -86,7 +86,7 @@ SolveResult PieceSolver::solveOne(const PieceTask& task, std::uint32_t threads,
       SolverOptions options = request_.solver_options;
       if (row.solver != request_.solver) options.values.clear();
       options.threads = threads;
-      if (task.shares > 0) options.expansion_limit = task.shares * usualEffort(task, piece);
+      if (task.piece->shares > 0) options.expansion_limit = task.piece->shares * usualBudget(task);
       result = solvers_.create(row.solver, options)->solve(piece, deadline);
       row.horizon = makespanLowerBound(piece);
     } catch (const std::bad_alloc&) {

@@ -8,16 +8,16 @@
 #include "pipeline/run_log.h"
 #include "split_mapf/core/plan_report.h"
 #include "split_mapf/pipeline/executor.h"
-#include "split_mapf/split/decomposition.h"
+#include "split_mapf/split/piece_tree.h"
 
 namespace split_mapf {
 
-/// One piece and how much effort it may take.
+/// One piece, and who solves it within what.
 struct PieceTask {
-  const Decomposition* leaf = nullptr;
-  std::uint32_t shares = 0;  ///< multiples of the usual effort after which it gives up; 0: no limit
-  /// What the usual effort is at least [expansions], so that small pieces do not give up at once.
-  std::uint64_t least_effort = 300000;
+  PieceHandle piece;
+  /// The usual expansion budget is at least this, so that small pieces do not give up at once. The
+  /// piece may take as many as its shares of it.
+  std::uint64_t least_budget = 300000;
   std::string solver;  ///< another one than the request's; empty: that one
 };
 
@@ -36,7 +36,7 @@ class PieceSolver {
 
   /// Solvers that may find a plan for a piece where the request's own has failed, the one whose
   /// plans are best first.
-  std::vector<std::string> rescuers() const;
+  std::vector<std::string> otherSolvers() const;
 
  private:
   /// Where there are fewer tasks than threads a task may use several.

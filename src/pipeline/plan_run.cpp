@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
 
 #include "pipeline/auto_choice.h"
-#include "pipeline/phase_ladder.h"
 #include "pipeline/refine.h"
 #include "solver/search/replan_singly.h"
 #include "split_mapf/core/compaction.h"
@@ -27,6 +25,9 @@ constexpr std::uint32_t kReplanPasses = 3;
 constexpr double kReserve = 2;
 constexpr double kLargestReserve = 0.3;
 constexpr double kLeastReserveSec = 0.5;
+// A piece of a space split has little to do in its region: where it takes more expansions than this
+// besides those of its steps, others help.
+constexpr std::uint64_t kBudgetWithOthers = 60000;
 
 }  // namespace
 
@@ -74,15 +75,7 @@ void PlanRun::runStages() {
   if (!computeDistances()) return interrupt();
   setLowerBounds();
   choose();
-  std::optional<Decomposition> tree;
-  if (request_.split.space) {
-    if (!splitSpace()) return interrupt();
-    tree.emplace();
-  } else {
-    tree = split();
-  }
-  if (!tree) return interrupt();
-  std::optional<Plan> plan = solve(*tree);
+  std::optional<Plan> plan = planInPieces();
   if (!plan) return;
   log_.enterStage("validate");
   accept(std::move(*plan));
@@ -232,85 +225,98 @@ SpaceSplitOptions PlanRun::spaceSplitOptions() const {
   return options;
 }
 
-bool PlanRun::splitSpace() {
-  log_.enterStage("split");
-  space_.emplace(instance_, spaceSplitOptions());
-  return space_->plan(deadline_);
-}
-
-std::optional<Decomposition> PlanRun::split() {
+std::unique_ptr<Splitter> PlanRun::makeSplitter() {
+  if (request_.split.space) {
+    const bool check = request_.split_options.check != SplitOptions::Check::kNever;
+    return std::make_unique<SpaceSplitter>(
+        instance_, SpaceSplitter::Options{spaceSplitOptions(), timeSplitOptions(), check});
+  }
   if (request_.split.time_ratios.size() > 1) {
-    log_.enterStage("split");
-    return splitTime(instance_, timeSplitOptions(), deadline_, std::move(ways_));
+    return std::make_unique<TimeSplitter>(instance_, timeSplitOptions(), std::move(ways_));
   }
-  std::vector<std::uint32_t> everyone(instance_.robots());
-  std::iota(everyone.begin(), everyone.end(), 0U);
-  return Decomposition::leaf(instance_, std::move(everyone));
+  return std::make_unique<WholeWhereItFails>(instance_);
 }
 
-LadderOutcome PlanRun::climb(const Decomposition& tree) {
-  if (!space_) {
-    return PieceLadder(piece_solver_, log_, timeSplitOptions(), solve_deadline_)
-        .climb(tree, report_.subproblems);
+std::optional<RepairLoop::Outcome> PlanRun::solvePieces(Splitter& splitter) {
+  const bool cuts = request_.split.space || request_.split.time_ratios.size() > 1;
+  if (cuts) log_.enterStage("split");
+  if (!splitter.split(deadline_)) return std::nullopt;
+  log_.enterStage("solve");
+  RepairLoop::Options options;
+  if (request_.split.space && request_.split_options.rescue) {
+    options.others = piece_solver_.otherSolvers();
+    if (!options.others.empty()) options.least_budget = kBudgetWithOthers;
   }
-  PhaseLadder::Options options;
-  options.time = timeSplitOptions();
-  options.check_seams = request_.split_options.check != SplitOptions::Check::kNever;
-  options.rescue = request_.split_options.rescue;
-  LadderOutcome outcome =
-      PhaseLadder(*space_, piece_solver_, log_, std::move(options), solve_deadline_)
-          .climb(report_.subproblems);
-  report_.layout = space_->layout();
+  RepairLoop loop(splitter, piece_solver_, log_, std::move(options), solve_deadline_);
+  RepairLoop::Outcome outcome = loop.run(report_.subproblems);
+  report_.layout = splitter.layout();
   return outcome;
 }
 
-void PlanRun::callOthers(LadderOutcome& outcome) {
-  const bool late = outcome.last.termination == Termination::kTimeout && !deadline_.expired();
-  const std::vector<std::string> others =
-      late ? std::vector<std::string>{kLastResort} : piece_solver_.rescuers();
-  solve_deadline_ = deadline_;
-  for (const std::string& solver : others) {
-    const bool failed = late || outcome.last.termination == Termination::kNoPlanFound;
-    if (!outcome.plans.empty() || !failed) return;
-    const char* const how = late ? " was not done in time" : " gave up";
-    choice_.insert(choice_.size() - 1, "; " + request_.solver + how);
-    request_.solver = solver;
-    request_.split = SplitSpec{};
-    report_.subproblems.clear();  // they tell of the plan, and this one came to nothing
-    space_.reset();
-    request_.solver_options.expansion_limit = 0;
-    outcome = climb(*split());
+std::optional<Plan> PlanRun::planInPieces() {
+  std::unique_ptr<Splitter> splitter = makeSplitter();
+  std::optional<RepairLoop::Outcome> outcome = solvePieces(*splitter);
+  while (outcome && report_.solver == "auto" && callAnother(*outcome)) {
+    splitter = makeSplitter();
+    outcome = solvePieces(*splitter);
   }
-}
-
-std::optional<Plan> PlanRun::solve(const Decomposition& tree) {
-  log_.enterStage("solve");
-  LadderOutcome outcome = climb(tree);
-  if (report_.solver == "auto") callOthers(outcome);
-  if (outcome.plans.empty()) {
-    takeVerdict(outcome.last);
+  if (!outcome) {
+    interrupt();
     return std::nullopt;
   }
+  if (outcome->plans.empty()) {
+    takeVerdict(outcome->last);
+    return std::nullopt;
+  }
+  return join(*splitter, *outcome);
+}
+
+bool PlanRun::callAnother(const RepairLoop::Outcome& outcome) {
+  const bool late = outcome.last.termination == Termination::kTimeout && !deadline_.expired();
+  const bool failed = late || outcome.last.termination == Termination::kNoPlanFound;
+  if (!outcome.plans.empty() || !failed) return false;
+  if (!others_) {
+    others_ = piece_solver_.otherSolvers();
+    std::reverse(others_->begin(), others_->end());
+    // It ends with a plan or a proof, which the others would leave open, and in time.
+    const auto is_other = [](const std::string& name) { return name != kLastResort; };
+    const auto last_resort = std::stable_partition(others_->begin(), others_->end(), is_other);
+    if (late) others_->erase(others_->begin(), last_resort);
+    solve_deadline_ = deadline_;
+  }
+  if (others_->empty()) return false;
+  const char* const how = late ? " was not done in time" : " gave up";
+  choice_.insert(choice_.size() - 1, "; " + request_.solver + how);
+  request_.solver = others_->back();
+  others_->pop_back();
+  request_.split = SplitSpec{};
+  request_.solver_options.expansion_limit = 0;
+  report_.subproblems.clear();  // they tell of the plan, and this one came to nothing
+  return true;
+}
+
+Plan PlanRun::join(const Splitter& splitter, RepairLoop::Outcome& outcome) {
   log_.enterStage("stitch");
-  Plan plan = stitch(outcome.pieces, outcome.plans, instance_.robots());
-  if (outcome.plans.size() == 1) {
+  const std::vector<PieceHandle> pieces = piecesOf(splitter.tree());
+  Plan plan = stitch(splitter.tree(), outcome.plans, instance_.robots());
+  if (pieces.size() == 1) {
+    if (!isWhole(*pieces.front(), instance_)) return plan;
     report_.proved_lower_bound =
         std::max(report_.proved_lower_bound, static_cast<double>(outcome.last.lower_bound));
     report_.certified_by = outcome.last.certified_by;
     solver_said_ = outcome.last.message;
-  } else if (request_.split_options.compaction) {
+    return plan;
+  }
+  if (request_.split_options.compaction) {
     log_.enterStage("compact");
     plan = compact(plan, instance_.graph().size());
   }
-  if (outcome.plans.size() > 1) {
-    const bool least = costOf(plan, report_.objective) <= report_.proved_lower_bound;
-    const std::uint32_t passes =
-        request_.split_options.replan_passes.value_or(least ? 0 : kReplanPasses);
-    if (passes == 0) return plan;
-    log_.enterStage("replan");
-    plan = replanSingly(instance_, std::move(plan), {passes, report_.threads, nullptr}, deadline_);
-  }
-  return plan;
+  const bool least = costOf(plan, report_.objective) <= report_.proved_lower_bound;
+  const std::uint32_t passes =
+      request_.split_options.replan_passes.value_or(least ? 0 : kReplanPasses);
+  if (passes == 0) return plan;
+  log_.enterStage("replan");
+  return replanSingly(instance_, std::move(plan), {passes, report_.threads, nullptr}, deadline_);
 }
 
 void PlanRun::takeVerdict(const SolveResult& result) {

@@ -1,16 +1,17 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "pipeline/checked_request.h"
-#include "pipeline/piece_ladder.h"
 #include "pipeline/piece_solver.h"
+#include "pipeline/repair_loop.h"
 #include "pipeline/run_log.h"
 #include "split_mapf/core/solvability.h"
 #include "split_mapf/pipeline/instance_features.h"
-#include "split_mapf/split/decomposition.h"
-#include "split_mapf/split/space_split.h"
-#include "split_mapf/split/time_split.h"
+#include "split_mapf/split/space_splitter.h"
+#include "split_mapf/split/splitter.h"
+#include "split_mapf/split/time_splitter.h"
 
 namespace split_mapf {
 
@@ -36,8 +37,17 @@ class PlanRun {
   bool mustChoose() const;
   /// Puts a solver and a split where `auto` was asked for. @pre no robot is cut off.
   void choose();
-  std::optional<Decomposition> split();
-  std::optional<Plan> solve(const Decomposition& tree);
+  /// Of the split that the request asks for by now.
+  std::unique_ptr<Splitter> makeSplitter();
+  /// From the split to a plan of the whole; nothing, with the verdict in the report, without one.
+  std::optional<Plan> planInPieces();
+  /// Splits, and solves the pieces; nothing when the deadline cut the split.
+  std::optional<RepairLoop::Outcome> solvePieces(Splitter& splitter);
+  /// What `auto` chose came to nothing: puts another solver in its place, for the whole. False when
+  /// there is a plan or a proof, or no other solver is left.
+  bool callAnother(const RepairLoop::Outcome& outcome);
+  /// Joins the pieces' plans and mends the seams.
+  Plan join(const Splitter& splitter, RepairLoop::Outcome& outcome);
   void takeVerdict(const SolveResult& result);
   void accept(Plan plan);
   /// Says how good the plan is. @pre there is one.
@@ -48,13 +58,8 @@ class PlanRun {
   void interrupt();
   TimeSplitOptions timeSplitOptions() const;
   SpaceSplitOptions spaceSplitOptions() const;
-  /// Cuts in space; false when the deadline expired.
-  bool splitSpace();
-  LadderOutcome climb(const Decomposition& tree);
   /// What `auto` chose gets all the time but what kLastResort is likely to need.
   void keepTimeForLastResort(double expected_sec);
-  /// Has the whole solved by other solvers while there is no plan and no proof.
-  void callOthers(LadderOutcome& outcome);
 
   const Instance& instance_;
   CheckedRequest request_;
@@ -66,12 +71,12 @@ class PlanRun {
   SolvabilityChecker checker_;
   const SolverRegistry& solvers_;
   PieceSolver piece_solver_;
-  std::vector<Path> shortest_paths_;          ///< of the robots, until `auto` has chosen
-  std::vector<Path> ways_;                    ///< of the robots, until they are cut in time
-  std::optional<InstanceFeatures> features_;  ///< set where `auto` had to choose
-  std::string solver_said_;                   ///< of the plan of an unsplit instance
-  std::string choice_;                        ///< why, for people
-  std::optional<SpaceSplit> space_;
+  std::vector<Path> shortest_paths_;                ///< of the robots, until `auto` has chosen
+  std::vector<Path> ways_;                          ///< of the robots, until they are cut in time
+  std::optional<InstanceFeatures> features_;        ///< set where `auto` had to choose
+  std::string solver_said_;                         ///< of the plan of an unsplit instance
+  std::optional<std::vector<std::string>> others_;  ///< that `auto` can still call, last first
+  std::string choice_;                              ///< why, for people
   PlanReport report_;
 };
 

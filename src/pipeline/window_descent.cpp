@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <atomic>
-#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "split_mapf/core/compaction.h"
-#include "split_mapf/split/decomposition.h"
+#include "split_mapf/split/splitter.h"
 
 namespace split_mapf {
 namespace {
@@ -91,15 +90,14 @@ std::optional<Plan> shortenWindows(const Instance& instance, const Plan& plan,
   }
   executor.run(std::move(jobs), options.threads, deadline);
   if (!gained) return std::nullopt;
-  std::vector<std::uint32_t> everyone(instance.robots());
-  std::iota(everyone.begin(), everyone.end(), 0U);
-  std::vector<Decomposition> leaves;
-  leaves.reserve(pieces.size());
-  for (std::optional<Instance>& piece : pieces) {
-    leaves.push_back(Decomposition::leaf(std::move(*piece), everyone));
+  std::vector<PieceHandle> handles;
+  PiecePlans plans;
+  for (PieceId i = 0; i < pieces.size(); ++i) {
+    handles.push_back(wholePiece(*pieces[i], i));
+    plans[i] = std::move(slices[i]);
   }
-  const Decomposition tree = Decomposition::sequence(std::move(leaves));
-  Plan shorter = compact(stitch(tree, slices, instance.robots()), instance.graph().size());
+  const PieceTree tree = PieceTree::sequence(handles);
+  Plan shorter = compact(stitch(tree, plans, instance.robots()), instance.graph().size());
   if (makespanOf(shorter) >= makespanOf(plan)) return std::nullopt;
   return shorter;
 }

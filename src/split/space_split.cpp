@@ -130,12 +130,12 @@ void SpaceSplit::drawPhase(std::uint32_t phase, const std::vector<Vertex>& from,
   }
 }
 
-RegionPiece SpaceSplit::pieceOf(std::uint32_t phase, std::uint32_t region) const {
+Piece SpaceSplit::pieceOf(std::uint32_t phase, std::uint32_t region) const {
   const std::vector<Vertex>& from = statesBefore(phase);
   const std::vector<Vertex>& to = layout_.phases[phase].states;
   const Ownership& ownership = ownershipOf(phase);
   const RegionGrid& grid = drawer_->grids().of(layout_.phases[phase].ownership, ownership, region);
-  RegionPiece piece;
+  Piece piece;
   piece.phase = phase;
   piece.region = region;
   piece.map = grid.map;
@@ -158,8 +158,8 @@ RegionPiece SpaceSplit::pieceOf(std::uint32_t phase, std::uint32_t region) const
   return piece;
 }
 
-std::vector<RegionPiece> SpaceSplit::piecesOf(std::uint32_t phase) const {
-  std::vector<RegionPiece> pieces;
+std::vector<Piece> SpaceSplit::piecesOf(std::uint32_t phase) const {
+  std::vector<Piece> pieces;
   for (const auto& group : groupByRegion(ownershipOf(phase), statesBefore(phase))) {
     pieces.push_back(pieceOf(phase, group.first));
   }

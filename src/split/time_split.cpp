@@ -117,38 +117,40 @@ class SeamDrawer {
   RandomEngine engine_;
 };
 
-Decomposition makePiece(const Instance& whole, const std::vector<Vertex>& from,
-                        const std::vector<Vertex>& to, std::size_t number) {
-  std::vector<std::uint32_t> everyone(whole.robots());
-  std::iota(everyone.begin(), everyone.end(), 0U);
+Piece makePiece(const Instance& whole, const std::vector<Vertex>& from,
+                const std::vector<Vertex>& to, std::size_t number) {
+  Piece piece;
+  piece.robots.resize(whole.robots());
+  std::iota(piece.robots.begin(), piece.robots.end(), 0U);
   // A piece's robots see little of the map, and pieces are solved in threads of their own.
-  Instance piece = Instance::stretchOf(whole, from, to);
-  return Decomposition::leaf(std::move(piece), std::move(everyone),
-                             static_cast<std::uint32_t>(number));
+  piece.instance = std::make_shared<const Instance>(Instance::stretchOf(whole, from, to));
+  piece.phase = static_cast<std::uint32_t>(number);
+  return piece;
 }
 
 /// Halves the instance and then each half, until there are as many pieces as ratios.
-std::optional<Decomposition> bisect(const Instance& instance, TimeSplitOptions options,
-                                    const Deadline& deadline, std::vector<Path> ways) {
+std::optional<std::vector<Piece>> bisect(const Instance& instance, TimeSplitOptions options,
+                                         const Deadline& deadline, std::vector<Path> ways) {
   const std::size_t pieces = options.ratios.size();
   if ((pieces & (pieces - 1)) != 0) {
     throw OptionError("variant=bisection needs a power of two of pieces, not " +
                       std::to_string(pieces));
   }
   options.ratios = {0.5, 0.5};
-  std::optional<Decomposition> halves = splitTime(instance, options, deadline, std::move(ways));
+  std::optional<std::vector<Piece>> halves =
+      splitTime(instance, options, deadline, std::move(ways));
   if (!halves || pieces == 2) return halves;
   options.ratios.assign(pieces / 2, 2.0 / static_cast<double>(pieces));
-  std::vector<Decomposition> leaves;
-  for (const Decomposition& half : halves->children) {
-    const auto quarters = splitTime(*half.instance, options, deadline);
+  std::vector<Piece> parts;
+  for (const Piece& half : *halves) {
+    auto quarters = splitTime(*half.instance, options, deadline);
     if (!quarters) return std::nullopt;
-    for (Decomposition leaf : quarters->children) {
-      leaf.phase = static_cast<std::uint32_t>(leaves.size());
-      leaves.push_back(std::move(leaf));
+    for (Piece& part : *quarters) {
+      part.phase = static_cast<std::uint32_t>(parts.size());
+      parts.push_back(std::move(part));
     }
   }
-  return Decomposition::sequence(std::move(leaves));
+  return parts;
 }
 
 }  // namespace
@@ -158,8 +160,9 @@ bool followsShortestWays(const Instance& instance, const TimeSplitOptions& optio
          instance.robots() <= instance.graph().size() / kCellsARobot;
 }
 
-std::optional<Decomposition> splitTime(const Instance& instance, const TimeSplitOptions& options,
-                                       const Deadline& deadline, std::vector<Path> ways) {
+std::optional<std::vector<Piece>> splitTime(const Instance& instance,
+                                            const TimeSplitOptions& options,
+                                            const Deadline& deadline, std::vector<Path> ways) {
   if (options.variant == TimeSplitVariant::kBisection && options.ratios.size() > 2) {
     return bisect(instance, options, deadline, std::move(ways));
   }
@@ -169,7 +172,7 @@ std::optional<Decomposition> splitTime(const Instance& instance, const TimeSplit
     ways = drawShortestWays(instance, options.seed, deadline);
   if (deadline.expired()) return std::nullopt;
   SeamDrawer drawer(instance, options, deadline, std::move(ways));
-  std::vector<Decomposition> pieces;
+  std::vector<Piece> pieces;
   std::vector<Vertex> from = instance.starts();
   double open = std::accumulate(options.ratios.begin(), options.ratios.end(), 0.0);
   double due = 0;  // shares of the time that the next piece takes: more than one after a lost seam
@@ -188,7 +191,7 @@ std::optional<Decomposition> splitTime(const Instance& instance, const TimeSplit
   if (pieces.empty() || from != instance.goals()) {
     pieces.push_back(makePiece(instance, from, instance.goals(), pieces.size()));
   }
-  return Decomposition::sequence(std::move(pieces));
+  return pieces;
 }
 
 }  // namespace split_mapf

@@ -37,7 +37,7 @@ void expectSound(const Instance& instance, const SpaceSplit& split) {
           << "robot " << robot << " in phase " << phase;
     }
     std::uint32_t robots = 0;
-    for (const RegionPiece& piece : split.piecesOf(phase)) {
+    for (const Piece& piece : split.piecesOf(phase)) {
       robots += static_cast<std::uint32_t>(piece.robots.size());
       EXPECT_EQ(checkSolvable(*piece.instance).answer, Solvability::kSolvable);
       for (std::uint32_t i = 0; i < piece.robots.size(); ++i) {
@@ -85,7 +85,7 @@ TEST(SpaceSplit, KeepsToTheUsualNumberOfPhasesOnOpenGrids) {
     std::uint32_t steps = 0;
     for (std::uint32_t phase = 0; phase < split.layout().phases.size(); ++phase) {
       std::uint32_t longest = 0;
-      for (const RegionPiece& piece : split.piecesOf(phase)) {
+      for (const Piece& piece : split.piecesOf(phase)) {
         longest = std::max(longest, makespanLowerBound(*piece.instance));
       }
       steps += longest;
@@ -138,10 +138,10 @@ TEST(SpaceSplit, RematchKeepsTheRegionsOfTheNextPhase) {
   ASSERT_TRUE(split.plan(Deadline()));
   ASSERT_GE(split.layout().phases.size(), 2U);
   const std::vector<Vertex> before = split.layout().phases[0].states;
-  const std::vector<RegionPiece> next = split.piecesOf(1);
+  const std::vector<Piece> next = split.piecesOf(1);
   ASSERT_TRUE(split.rematch(0, split.piecesOf(0).front().region, Deadline()));
   EXPECT_NE(split.layout().phases[0].states, before);
-  const std::vector<RegionPiece> after = split.piecesOf(1);
+  const std::vector<Piece> after = split.piecesOf(1);
   ASSERT_EQ(after.size(), next.size());
   for (std::size_t i = 0; i < next.size(); ++i) EXPECT_EQ(after[i].robots, next[i].robots);
   expectSound(instance, split);
@@ -160,7 +160,7 @@ TEST(SpaceSplit, MergesAndJoinsDownToTheWhole) {
   EXPECT_EQ(split.piecesOf(0).size(), pieces - 1);
   expectSound(instance, split);
   while (split.layout().phases.size() > 1) split.joinPhases(0);
-  const std::vector<RegionPiece> whole = split.piecesOf(0);
+  const std::vector<Piece> whole = split.piecesOf(0);
   ASSERT_EQ(whole.size(), 1U);
   EXPECT_EQ(whole.front().instance->starts(), instance.starts());
   EXPECT_EQ(whole.front().instance->goals(), instance.goals());

@@ -25,10 +25,10 @@ double worstRatio(const std::string& map, TimeSplitVariant variant) {
         options.variant = variant;
         const auto tree = splitTime(instance, options, Deadline());
         double sum = 0;
-        for (const Decomposition* leaf : leavesOf(*tree)) {
+        for (const Piece& leaf : *tree) {
           sum += variant == TimeSplitVariant::kMakespan
-                     ? makespanLowerBound(*leaf->instance)
-                     : static_cast<double>(sumOfCostsLowerBound(*leaf->instance));
+                     ? makespanLowerBound(*leaf.instance)
+                     : static_cast<double>(sumOfCostsLowerBound(*leaf.instance));
         }
         const double whole = variant == TimeSplitVariant::kMakespan
                                  ? makespanLowerBound(instance)

@@ -59,9 +59,9 @@ TEST_P(TimeSplit, PiecesFollowEachOtherFromStartsToGoals) {
   const auto tree = splitTime(instance, equal(5, GetParam()), Deadline());
   ASSERT_TRUE(tree);
   std::vector<Vertex> at = instance.starts();
-  for (const Decomposition* leaf : leavesOf(*tree)) {
-    EXPECT_EQ(leaf->instance->starts(), at);
-    at = leaf->instance->goals();
+  for (const Piece& leaf : *tree) {
+    EXPECT_EQ(leaf.instance->starts(), at);
+    at = leaf.instance->goals();
     EXPECT_EQ(std::set<Vertex>(at.begin(), at.end()).size(), at.size());
   }
   EXPECT_EQ(at, instance.goals());
@@ -73,7 +73,7 @@ TEST_P(TimeSplit, LowerBoundsOfThePiecesAddUpToTheWholes) {
       const Instance instance = randomInstance(32, 0.05, robots, robots + pieces);
       const auto tree = splitTime(instance, equal(pieces, GetParam()), Deadline());
       std::uint32_t sum = 0;
-      for (const Decomposition* leaf : leavesOf(*tree)) sum += makespanLowerBound(*leaf->instance);
+      for (const Piece& leaf : *tree) sum += makespanLowerBound(*leaf.instance);
       EXPECT_EQ(sum, makespanLowerBound(instance)) << robots << " robots, " << pieces << " pieces";
     }
   }
@@ -84,19 +84,19 @@ TEST_P(TimeSplit, RatiosShareOutTheTime) {
   TimeSplitOptions options = equal(1, GetParam());
   options.ratios = {0.2, 0.3, 0.5};
   const auto tree = splitTime(instance, options, Deadline());
-  const auto leaves = leavesOf(*tree);
+  const std::vector<Piece>& leaves = *tree;
   ASSERT_EQ(leaves.size(), 3U);
   const double whole = makespanLowerBound(instance);
-  EXPECT_NEAR(makespanLowerBound(*leaves[0]->instance), 0.2 * whole, 1);
-  EXPECT_NEAR(makespanLowerBound(*leaves[1]->instance), 0.3 * whole, 1);
-  EXPECT_NEAR(makespanLowerBound(*leaves[2]->instance), 0.5 * whole, 1);
+  EXPECT_NEAR(makespanLowerBound(*leaves[0].instance), 0.2 * whole, 1);
+  EXPECT_NEAR(makespanLowerBound(*leaves[1].instance), 0.3 * whole, 1);
+  EXPECT_NEAR(makespanLowerBound(*leaves[2].instance), 0.5 * whole, 1);
 }
 
 TEST_P(TimeSplit, TheSameSeedGivesTheSameStates) {
   const Instance instance = randomInstance(20, 0.1, 80, 4);
   const auto states = [&](std::uint64_t seed) {
     return splitTime(instance, equal(3, GetParam(), seed), Deadline())
-        ->children[0]
+        ->front()
         .instance->goals();
   };
   EXPECT_EQ(states(7), states(7));
@@ -112,14 +112,14 @@ TEST_P(TimeSplit, WaysDrawnBeforehandChangeNothing) {
     for (std::uint32_t i = 0; i < robots; ++i) ways.push_back(drawShortestWay(instance, i, 5));
     const auto alone = splitTime(instance, options, Deadline());
     const auto helped = splitTime(instance, options, Deadline(), ways);
-    ASSERT_EQ(alone->children.size(), helped->children.size());
-    for (std::size_t j = 0; j < alone->children.size(); ++j) {
-      EXPECT_EQ(alone->children[j].instance->goals(), helped->children[j].instance->goals());
+    ASSERT_EQ(alone->size(), helped->size());
+    for (std::size_t j = 0; j < alone->size(); ++j) {
+      EXPECT_EQ((*alone)[j].instance->goals(), (*helped)[j].instance->goals());
     }
     if (robots > 20) continue;
     // Whoever has its own way's state to itself is there.
     std::uint32_t on_way = 0;
-    const std::vector<Vertex>& seam = helped->children[0].instance->goals();
+    const std::vector<Vertex>& seam = (*helped)[0].instance->goals();
     for (std::uint32_t i = 0; i < robots; ++i) {
       on_way += std::find(ways[i].begin(), ways[i].end(), seam[i]) != ways[i].end();
     }
@@ -130,7 +130,7 @@ TEST_P(TimeSplit, WaysDrawnBeforehandChangeNothing) {
 TEST_P(TimeSplit, CrowdedGridsStillGetStatesOfTheirOwn) {
   const Instance instance = randomInstance(8, 0, 64, 5);
   const auto tree = splitTime(instance, equal(4, GetParam()), Deadline());
-  for (const Decomposition* leaf : leavesOf(*tree)) EXPECT_EQ(leaf->instance->robots(), 64U);
+  for (const Piece& leaf : *tree) EXPECT_EQ(leaf.instance->robots(), 64U);
 }
 
 TEST_P(TimeSplit, CheckedPiecesAreSolvable) {
@@ -148,13 +148,13 @@ TEST_P(TimeSplit, CheckedPiecesAreSolvable) {
     const SolvabilityChecker checker(grid->graph());
     TimeSplitOptions options = equal(3, GetParam(), seed);
     const auto unchecked = splitTime(instance, options, Deadline());
-    for (const Decomposition* leaf : leavesOf(*unchecked)) {
-      refused += checkSolvable(*leaf->instance).answer != Solvability::kSolvable;
+    for (const Piece& leaf : *unchecked) {
+      refused += checkSolvable(*leaf.instance).answer != Solvability::kSolvable;
     }
     options.checker = &checker;
     const auto checked = splitTime(instance, options, Deadline());
-    for (const Decomposition* leaf : leavesOf(*checked)) {
-      EXPECT_EQ(checkSolvable(*leaf->instance).answer, Solvability::kSolvable) << seed;
+    for (const Piece& leaf : *checked) {
+      EXPECT_EQ(checkSolvable(*leaf.instance).answer, Solvability::kSolvable) << seed;
     }
   }
   // States at everyone's share of its way keep the order of a corridor; far ones do not.
@@ -166,8 +166,8 @@ TEST_P(TimeSplit, CheckedPiecesAreSolvable) {
 TEST_P(TimeSplit, MorePiecesThanStepsLeaveTheEmptyOnesOut) {
   const Instance instance = randomInstance(4, 0, 3, 6);
   const auto tree = splitTime(instance, equal(50, GetParam()), Deadline());
-  EXPECT_LE(leavesOf(*tree).size(), makespanLowerBound(instance) + 1);
-  EXPECT_GE(leavesOf(*tree).size(), 1U);
+  EXPECT_LE(tree->size(), makespanLowerBound(instance) + 1);
+  EXPECT_GE(tree->size(), 1U);
 }
 
 TEST_P(TimeSplit, AnExpiredDeadlineEndsIt) {
@@ -191,18 +191,18 @@ TEST(TimeSplitAhead, NobodyIsHeldBackToTheLongestWay) {
       {"...................a", "....b...............", "...................."});
   const auto shares = splitTime(instance, equal(4, TimeSplitVariant::kMakespan), Deadline());
   const auto ahead = splitTime(instance, equal(4, TimeSplitVariant::kAhead), Deadline());
-  EXPECT_NE(leavesOf(*shares).front()->instance->goal(1), instance.goal(1));
-  EXPECT_EQ(leavesOf(*ahead).front()->instance->goal(1), instance.goal(1));
+  EXPECT_NE(shares->front().instance->goal(1), instance.goal(1));
+  EXPECT_EQ(ahead->front().instance->goal(1), instance.goal(1));
   std::uint32_t bounds = 0;
-  for (const Decomposition* leaf : leavesOf(*ahead)) bounds += makespanLowerBound(*leaf->instance);
+  for (const Piece& leaf : *ahead) bounds += makespanLowerBound(*leaf.instance);
   EXPECT_EQ(bounds, 19U);
 }
 
-void expectChain(const Instance& instance, const Decomposition& tree) {
+void expectChain(const Instance& instance, const std::vector<Piece>& tree) {
   std::vector<Vertex> at = instance.starts();
-  for (const Decomposition* leaf : leavesOf(tree)) {
-    EXPECT_EQ(leaf->instance->starts(), at);
-    at = leaf->instance->goals();
+  for (const Piece& leaf : tree) {
+    EXPECT_EQ(leaf.instance->starts(), at);
+    at = leaf.instance->goals();
   }
   EXPECT_EQ(at, instance.goals());
 }
@@ -217,9 +217,9 @@ TEST(TimeSplit, PiecesShareNoTableThatGrows) {
   const auto tree = splitTime(whole, options, Deadline());
   ASSERT_TRUE(tree);
   std::set<const DistanceTable*> tables;
-  for (const Decomposition* leaf : leavesOf(*tree)) {
-    EXPECT_EQ(leaf->instance->goal(0), 1U);
-    EXPECT_TRUE(tables.insert(&leaf->instance->distances(0)).second) << "read by two threads";
+  for (const Piece& leaf : *tree) {
+    EXPECT_EQ(leaf.instance->goal(0), 1U);
+    EXPECT_TRUE(tables.insert(&leaf.instance->distances(0)).second) << "read by two threads";
   }
   EXPECT_EQ(tables.size(), 3U);
 }
@@ -233,7 +233,7 @@ TEST(TimeSplitMatching, WastesNoStepEither) {
     ASSERT_TRUE(tree);
     expectChain(instance, *tree);
     std::uint32_t sum = 0;
-    for (const Decomposition* leaf : leavesOf(*tree)) sum += makespanLowerBound(*leaf->instance);
+    for (const Piece& leaf : *tree) sum += makespanLowerBound(*leaf.instance);
     EXPECT_EQ(sum, makespanLowerBound(instance));
   }
 }
@@ -249,10 +249,10 @@ TEST(TimeSplitBisection, HalvesAgainAndAgain) {
   const Instance instance = randomInstance(32, 0.05, 60, 11);
   const auto tree = splitTime(instance, equal(8, TimeSplitVariant::kBisection), Deadline());
   ASSERT_TRUE(tree);
-  const auto leaves = leavesOf(*tree);
+  const std::vector<Piece>& leaves = *tree;
   ASSERT_EQ(leaves.size(), 8U);
   expectChain(instance, *tree);
-  for (std::uint32_t i = 0; i < 8; ++i) EXPECT_EQ(leaves[i]->phase, i);
+  for (std::uint32_t i = 0; i < 8; ++i) EXPECT_EQ(leaves[i].phase, i);
 }
 
 TEST(TimeSplitSumOfCosts, SumsOfCostsOfThePiecesAddUpToTheWholes) {
@@ -262,8 +262,7 @@ TEST(TimeSplitSumOfCosts, SumsOfCostsOfThePiecesAddUpToTheWholes) {
       const auto tree =
           splitTime(instance, equal(pieces, TimeSplitVariant::kSumOfCosts), Deadline());
       std::uint64_t sum = 0;
-      for (const Decomposition* leaf : leavesOf(*tree))
-        sum += sumOfCostsLowerBound(*leaf->instance);
+      for (const Piece& leaf : *tree) sum += sumOfCostsLowerBound(*leaf.instance);
       EXPECT_LE(static_cast<double>(sum),
                 1.001 * static_cast<double>(sumOfCostsLowerBound(instance)))
           << robots << " robots, " << pieces << " pieces";
@@ -274,7 +273,7 @@ TEST(TimeSplitSumOfCosts, SumsOfCostsOfThePiecesAddUpToTheWholes) {
 TEST(TimeSplitSumOfCosts, RobotsNearHomeGoHomeInTheFirstPiece) {
   const Instance instance = randomInstance(32, 0, 40, 9);
   const auto tree = splitTime(instance, equal(2, TimeSplitVariant::kSumOfCosts), Deadline());
-  const Instance& first = *tree->children[0].instance;
+  const Instance& first = *tree->front().instance;
   const std::uint32_t half = (makespanLowerBound(instance) + 1) / 2;
   int home = 0;
   for (std::uint32_t i = 0; i < instance.robots(); ++i) {

@@ -9,8 +9,8 @@
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/layout.h"
-#include "split_mapf/split/decomposition.h"
 #include "split_mapf/split/partition.h"
+#include "split_mapf/split/piece_tree.h"
 #include "split_mapf/split/time_split.h"
 
 namespace split_mapf {
@@ -33,15 +33,6 @@ struct SpaceSplitOptions {
   std::uint32_t phase_steps = 0;  ///< T1 [steps]; 0: the time left over the phases left
   bool check = true;              ///< whether regions are checked for solvability
   std::uint64_t seed = 0;         ///< breaks ties
-};
-
-/// One region of one phase with its own grid, on which its robots are planned for.
-struct RegionPiece {
-  std::uint32_t phase = 0;
-  std::uint32_t region = 0;
-  std::vector<std::uint32_t> robots;               ///< of the whole, ascending
-  std::shared_ptr<const Instance> instance;        ///< on the region's own grid
-  std::shared_ptr<const std::vector<Vertex>> map;  ///< its vertices in the whole; null: the same
 };
 
 /// Cuts an instance in space: phases that follow each other, in each of which every robot stays in
@@ -72,8 +63,9 @@ class SpaceSplit {
   /// Where the robots are when a phase begins.
   const std::vector<Vertex>& statesBefore(std::uint32_t phase) const;
   /// The pieces of a phase, by region; a region without robots has none.
-  std::vector<RegionPiece> piecesOf(std::uint32_t phase) const;
-  RegionPiece pieceOf(std::uint32_t phase, std::uint32_t region) const;
+  std::vector<Piece> piecesOf(std::uint32_t phase) const;
+  /// The piece of a region on the region's own grid, its robots in ascending order; without a name.
+  Piece pieceOf(std::uint32_t phase, std::uint32_t region) const;
 
   /// Draws other states for the robots of a region, which end in the same regions of the next phase
   /// as before. False when there are none (the last phase), or none that can be reached.

@@ -17,7 +17,7 @@ Instance crossing() {
                                  {".......d", ".......c", ".......b", ".......a", "........"});
 }
 
-TEST(PieceLadder, CutsAFailedPieceAnewWithOtherStates) {
+TEST(TimeRepair, CutsAFailedPieceAnewWithOtherStates) {
   const Instance instance = crossing();
   // Refuses exactly the seam that it sees first.
   std::vector<Vertex> refused;
@@ -34,7 +34,7 @@ TEST(PieceLadder, CutsAFailedPieceAnewWithOtherStates) {
   EXPECT_EQ(report.subproblems[3].status, "solved");
 }
 
-TEST(PieceLadder, MergesWithTheNeighbourWhenCuttingAnewDoesNotHelp) {
+TEST(TimeRepair, MergesWithTheNeighbourWhenCuttingAnewDoesNotHelp) {
   const Instance instance = crossing();
   // Refuses whatever ends before the second half.
   test::PickySolver solver([&](const Instance& piece) {
@@ -47,7 +47,7 @@ TEST(PieceLadder, MergesWithTheNeighbourWhenCuttingAnewDoesNotHelp) {
   EXPECT_GT(report.subproblems.size(), 4U);
 }
 
-TEST(PieceLadder, EndsWithTheWholeHoweverManyPiecesFail) {
+TEST(TimeRepair, EndsWithTheWholeHoweverManyPiecesFail) {
   const Instance instance = crossing();
   test::PickySolver solver([&](const Instance& piece) {
     return piece.starts() != instance.starts() || piece.goals() != instance.goals();
@@ -55,10 +55,10 @@ TEST(PieceLadder, EndsWithTheWholeHoweverManyPiecesFail) {
   const PlanReport report = solver.plan(instance, "8t", 2);
   EXPECT_EQ(report.termination, Termination::kSolved);
   EXPECT_EQ(report.subproblems.back().status, "solved");
-  EXPECT_LE(solver.calls(), 8 * 4) << "each rung has fewer pieces or fewer fresh seams";
+  EXPECT_LE(solver.calls(), 8 * 4) << "each step leaves fewer pieces, or fewer to cut anew";
 }
 
-TEST(PieceLadder, TheWholesAnswerIsTheAnswer) {
+TEST(TimeRepair, TheWholesAnswerIsTheAnswer) {
   test::PickySolver solver([](const Instance&) { return true; });
   const PlanReport report = solver.plan(crossing(), "4t", 2);
   EXPECT_EQ(report.termination, Termination::kNoPlanFound);
@@ -66,7 +66,7 @@ TEST(PieceLadder, TheWholesAnswerIsTheAnswer) {
   EXPECT_FALSE(report.plan);
 }
 
-TEST(PieceLadder, TheSamePlanAtAnyNumberOfThreadsWhenPiecesFail) {
+TEST(TimeRepair, TheSamePlanAtAnyNumberOfThreadsWhenPiecesFail) {
   const Instance instance = crossing();
   std::set<std::vector<Path>> plans;
   for (const std::uint32_t threads : {1U, 2U, 8U}) {

@@ -27,7 +27,7 @@ SolverRegistry lazyAndPrioritized() {
   return registry;
 }
 
-TEST(PhaseLadder, PlansInSpaceAndTime) {
+TEST(SpaceRepair, PlansInSpaceAndTime) {
   for (const char* split : {"2s", "2x2s", "4s2t", "2x2st(0.4,0.6)", "9s"}) {
     for (const double density : {0.05, 0.3}) {
       const Instance instance = test::generatedInstance(24, density, 30, 2);
@@ -41,7 +41,7 @@ TEST(PhaseLadder, PlansInSpaceAndTime) {
   }
 }
 
-TEST(PhaseLadder, TheSamePlanAtAnyNumberOfThreads) {
+TEST(SpaceRepair, TheSamePlanAtAnyNumberOfThreads) {
   const Instance instance = test::generatedInstance(24, 0.1, 40, 3);
   std::set<std::vector<Path>> plans;
   for (const std::uint32_t threads : {1U, 2U, 8U}) {
@@ -54,7 +54,7 @@ TEST(PhaseLadder, TheSamePlanAtAnyNumberOfThreads) {
   EXPECT_EQ(plans.size(), 1U);
 }
 
-TEST(PhaseLadder, MatchesARefusedRegionAnew) {
+TEST(SpaceRepair, MatchesARefusedRegionAnew) {
   const Instance instance = test::generatedInstance(24, 0.05, 40, 5);
   std::vector<Vertex> refused;
   test::PickySolver solver([&](const Instance& piece) {
@@ -68,7 +68,7 @@ TEST(PhaseLadder, MatchesARefusedRegionAnew) {
   EXPECT_EQ(report.layout->ownerships.size(), 2U) << "other states did, nothing was merged";
 }
 
-TEST(PhaseLadder, MergesRegionsThatFail) {
+TEST(SpaceRepair, MergesRegionsThatFail) {
   const Instance instance = test::generatedInstance(24, 0.05, 40, 5);
   const std::uint32_t cells = instance.graph().size();
   test::PickySolver solver([&](const Instance& piece) { return piece.graph().size() < cells / 3; });
@@ -78,7 +78,7 @@ TEST(PhaseLadder, MergesRegionsThatFail) {
   EXPECT_GT(report.layout->ownerships.size(), 2U);
 }
 
-TEST(PhaseLadder, HandsWhatFailsToAnotherSolver) {
+TEST(SpaceRepair, HandsWhatFailsToAnotherSolver) {
   const Instance instance = test::generatedInstance(24, 0.05, 40, 5);
   const PlanReport report = test::planWith(lazyAndPrioritized(), "lazy", instance, "2x2s2t", 2);
   ASSERT_TRUE(report.plan);
@@ -92,7 +92,7 @@ TEST(PhaseLadder, HandsWhatFailsToAnotherSolver) {
   EXPECT_NE(report.message.find("by other solvers"), std::string::npos) << report.message;
 }
 
-TEST(PhaseLadder, HandsOverPiecesOfARegionBeforeItIsOnePiece) {
+TEST(SpaceRepair, HandsOverPiecesOfARegionBeforeItIsOnePiece) {
   const Instance instance = test::generatedInstance(24, 0.05, 40, 5);
   const PlanReport report = test::planWith(lazyAndPrioritized(), "lazy", instance, "2x2s4t", 2);
   ASSERT_TRUE(report.plan);
@@ -101,7 +101,7 @@ TEST(PhaseLadder, HandsOverPiecesOfARegionBeforeItIsOnePiece) {
   EXPECT_GT(solved, 4 * report.layout->phases.size()) << "regions are still cut in time";
 }
 
-TEST(PhaseLadder, LeavesTheNamedSolverAloneWhereThatIsWanted) {
+TEST(SpaceRepair, LeavesTheNamedSolverAloneWhereThatIsWanted) {
   const Instance instance = test::generatedInstance(24, 0.05, 40, 5);
   const SolverRegistry registry = lazyAndPrioritized();
   Executor executor(2);
@@ -115,7 +115,7 @@ TEST(PhaseLadder, LeavesTheNamedSolverAloneWhereThatIsWanted) {
   for (const SubproblemReport& row : report.subproblems) EXPECT_EQ(row.solver, "lazy");
 }
 
-TEST(PhaseLadder, EndsWithTheWholeHoweverManyPiecesFail) {
+TEST(SpaceRepair, EndsWithTheWholeHoweverManyPiecesFail) {
   const Instance instance = test::generatedInstance(24, 0.05, 40, 5);
   test::PickySolver solver([&](const Instance& piece) {
     return piece.starts() != instance.starts() || piece.goals() != instance.goals();
@@ -124,10 +124,10 @@ TEST(PhaseLadder, EndsWithTheWholeHoweverManyPiecesFail) {
   ASSERT_TRUE(report.plan);
   EXPECT_EQ(report.layout->phases.size(), 1U);
   EXPECT_EQ(report.subproblems.back().agents, 40U);
-  EXPECT_LE(solver.calls(), 200) << "each rung has fewer pieces or draws than the one before";
+  EXPECT_LE(solver.calls(), 200) << "each step leaves fewer pieces, or fewer to cut anew";
 }
 
-TEST(PhaseLadder, TheWholesAnswerIsTheAnswer) {
+TEST(SpaceRepair, TheWholesAnswerIsTheAnswer) {
   test::PickySolver solver([](const Instance&) { return true; });
   const PlanReport report = solver.plan(test::generatedInstance(24, 0.05, 40, 5), "2x2s", 2);
   EXPECT_EQ(report.termination, Termination::kNoPlanFound);
@@ -135,7 +135,7 @@ TEST(PhaseLadder, TheWholesAnswerIsTheAnswer) {
   EXPECT_FALSE(report.plan);
 }
 
-TEST(PhaseLadder, IsCompleteOnDenseMaps) {
+TEST(SpaceRepair, IsCompleteOnDenseMaps) {
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     for (const double density : {0.25, 0.35}) {
       const Instance instance = test::generatedInstance(16, density, 15, seed);
@@ -147,7 +147,7 @@ TEST(PhaseLadder, IsCompleteOnDenseMaps) {
   }
 }
 
-TEST(PhaseLadder, ATimeOutIsATimeOut) {
+TEST(SpaceRepair, ATimeOutIsATimeOut) {
   SolverRegistry registry;
   registry.add(test::fakeSolver("slow", test::waitForDeadline));
   Executor executor(2);
