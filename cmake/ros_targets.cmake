@@ -14,7 +14,7 @@ foreach(node planner_node replay_node)
 endforeach()
 target_link_libraries(planner_node PRIVATE split_mapf_available_solvers)
 
-catkin_install_python(PROGRAMS scripts/plan_client.py
+catkin_install_python(PROGRAMS scripts/plan_client.py scripts/start_rviz.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(TARGETS split_mapf_core ${SPLIT_MAPF_ILP_LIBRARY} split_mapf_ros
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}

@@ -202,7 +202,11 @@ class ProgressLine:
 
 def find_server(name, patience):
     client = actionlib.ActionClient(name, PlanPathsAction)
-    if not client.wait_for_server(rospy.Duration(patience)):
+    # With a time of its own it would wait in ROS time, which may stand or leap; this is wall time.
+    waiting = threading.Thread(target=client.wait_for_server, daemon=True)
+    waiting.start()
+    waiting.join(patience)
+    if waiting.is_alive():
         raise NoAnswer("no planner answers on %s within %g s; is planner_node running?" %
                        (rospy.resolve_name(name), patience))
     return client

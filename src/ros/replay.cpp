@@ -6,6 +6,7 @@
 #include <string>
 
 #include <ros/console.h>
+#include <ros/topic_manager.h>
 
 #include "split_mapf/core/error.h"
 #include "split_mapf/ros/layout_messages.h"
@@ -16,6 +17,8 @@ namespace {
 
 // Plan and grid come on two topics, in any order.
 constexpr double kComparisonDelaySec = 1.0;
+// rviz subscribes some time before it draws for the first time.
+constexpr double kFirstLookSec = 2.0;
 
 void requireAtLeast(double least, const char* name, double value) {
   if (!std::isfinite(value) || value < least) {
@@ -26,6 +29,15 @@ void requireAtLeast(double least, const char* name, double value) {
 
 bool sameCells(const nav_msgs::MapMetaData& a, const nav_msgs::MapMetaData& b) {
   return a.width == b.width && a.height == b.height && a.resolution == b.resolution;
+}
+
+ClockReading readClocks(ros::Time now) {
+  ClockReading reading;
+  reading.ros_sec = now.toSec();
+  reading.wall_sec = ros::SteadyTime::now().toSec();
+  reading.driven =
+      !ros::Time::isSimTime() || ros::TopicManager::instance()->getNumPublishers("/clock") > 0;
+  return reading;
 }
 
 std::string stepText(const ReplayTimeline& timeline) {
@@ -46,10 +58,11 @@ ReplayOptions readReplayOptions(const XmlRpc::XmlRpcValue& parameters) {
   reader.read("rate", options.rate_hz);
   reader.read("speed", options.speed);
   reader.read("loop", options.loop);
+  reader.read("wait_for_viewer", options.wait_for_viewer);
   requireAtLeast(0, "robot_size", options.style.robot_size_cells);
   requireAtLeast(0, "trail_steps", options.style.trail_steps);
   requireAtLeast(0.1, "rate", options.rate_hz);
-  requireAtLeast(1e-3, "speed", options.speed);
+  requireAtLeast(0, "speed", options.speed);
   for (const std::string& name : reader.unreadNames()) {
     ROS_WARN("parameter ~%s is not one of this node", name.c_str());
   }
@@ -118,10 +131,30 @@ void Replay::tick() {
   // rviz forgets what it shows when time jumps back, as in a looped bag.
   if (now < last_tick_) shown_position_.reset();
   last_tick_ = now;
+  moveLocked(now);
   compareGridsLocked();
   if (!markers_) return;
-  timeline_.advance(now.toSec());
   if (shown_position_ != timeline_.position()) publishLocked();
+}
+
+void Replay::moveLocked(ros::Time now) {
+  const ReplayClock::Time time = clock_.read(readClocks(now));
+  if (time.anew) timeline_.startAnew();
+  if (!options_.wait_for_viewer || isWatchedLocked()) {
+    timeline_.advance(time.sec);
+  } else {
+    timeline_.hold();
+  }
+}
+
+bool Replay::isWatchedLocked() {
+  if (publisher_.getNumSubscribers() == 0) {
+    watched_since_.reset();
+    return false;
+  }
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  if (!watched_since_) watched_since_ = now;
+  return (now - *watched_since_).toSec() >= kFirstLookSec;
 }
 
 void Replay::publishLocked() {

@@ -18,13 +18,23 @@ void ReplayTimeline::advance(double now_sec) {
   clock_sec_ = now_sec;
   if (!playing_ || passed <= 0) return;
   if (position_ < steps_) {
-    position_ = std::min(steps_, position_ + passed * speed_ / step_duration_sec_);
+    position_ = std::min(steps_, position_ + passed * speed() / step_duration_sec_);
     return;
   }
   rest_sec_ += passed;
   if (!loop_ || rest_sec_ < kRestSec) return;
   position_ = 0;
   rest_sec_ = 0;
+}
+
+void ReplayTimeline::startAnew() {
+  hold();
+  if (playing_) seek(0);
+}
+
+double ReplayTimeline::speed() const {
+  if (speed_ > 0) return speed_;
+  return std::max(1.0, steps_ * step_duration_sec_ / kWholePlanSec);
 }
 
 void ReplayTimeline::play() {

@@ -127,7 +127,7 @@ TEST(ServerOptions, AreWrittenInTheConfigurationFileAsTheyAre) {
 
 TEST(ReplayOptions, AreWrittenInTheConfigurationFileAsTheyAre) {
   XmlRpcValue file = readParameterFile("config/replay.yaml");
-  EXPECT_EQ(file.size(), 7);
+  EXPECT_EQ(file.size(), 8);
   const ReplayOptions options = readReplayOptions(file);
   const ReplayOptions defaults;
   EXPECT_EQ(options.style.robot_size_cells, defaults.style.robot_size_cells);
@@ -137,6 +137,7 @@ TEST(ReplayOptions, AreWrittenInTheConfigurationFileAsTheyAre) {
   EXPECT_EQ(options.rate_hz, defaults.rate_hz);
   EXPECT_EQ(options.speed, defaults.speed);
   EXPECT_EQ(options.loop, defaults.loop);
+  EXPECT_EQ(options.wait_for_viewer, defaults.wait_for_viewer);
 }
 
 TEST(ServerOptions, ReadEveryParameter) {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Records a plan and its replay into a bag, ends the planner, and plays the bag."""
+"""Records a goal and its plan into a bag, ends the planner, plays the bag, and solves it again."""
 
 import os
 import shutil
@@ -15,12 +15,19 @@ from visualization_msgs.msg import MarkerArray
 
 from ros_processes import (Program, Recorder, SentGoal, action_client, wait_until, warehouse_goal,
                            write_instance)
-from split_mapf.msg import PlanOutcome
+from split_mapf.msg import PlanOutcome, PlanPathsActionGoal
+from split_mapf.srv import ReplayControl, ReplayControlRequest
+
+LATCHED_TOPICS = ("/map", "/split_mapf/plan", "/split_mapf/planning_grid", "/split_mapf/layout")
 
 
 def first_robot(array):
     point = next(marker for marker in array.markers if marker.ns == "robots").points[0]
     return point.x, point.y
+
+
+def count_of(found, topic):
+    return found[topic].message_count if topic in found else 0
 
 
 class Recording(unittest.TestCase):
@@ -29,14 +36,16 @@ class Recording(unittest.TestCase):
         rospy.init_node("recording_rostest")
         cls.directory = tempfile.mkdtemp()
         cls.bag = os.path.join(cls.directory, "plan.bag")
+        cls.marker_bag = os.path.join(cls.directory, "markers.bag")
         map_path, _ = write_instance(cls.directory)
-        planner = Program("roslaunch", "split_mapf", "planner.launch", "rviz:=false",
-                          "map_file:=" + map_path)
-        record = Program("roslaunch", "split_mapf", "record.launch", "bag:=" + cls.bag[:-4])
+        cls.planner_command = ("roslaunch", "split_mapf", "planner.launch", "rviz:=false",
+                               "map_file:=" + map_path)
+        planner = Program(*cls.planner_command)
         try:
-            cls.record(planner, record)
+            cls.record(planner, cls.bag, cls.ask_for_a_plan)
+            # The plan is latched, and its replay goes on.
+            cls.record(planner, cls.marker_bag, lambda planner: None, "markers:=true")
         finally:
-            record.end()
             planner.end()
 
     @classmethod
@@ -44,78 +53,157 @@ class Recording(unittest.TestCase):
         shutil.rmtree(cls.directory)
 
     @classmethod
-    def record(cls, planner, record):
-        client = action_client()
-        assert wait_until(lambda: os.path.exists(cls.bag + ".active")), record.output()
-        # The recorder subscribes to what it finds; the goal comes after that.
-        time.sleep(2)
-        sent = SentGoal(client, warehouse_goal())
+    def record(cls, planner, bag, act, *arguments):
+        record = Program("roslaunch", "split_mapf", "record.launch", "bag:=" + bag[:-4],
+                         *arguments)
+        try:
+            assert wait_until(lambda: os.path.exists(bag + ".active")), record.output()
+            # The recorder subscribes to what it finds; the goal comes after that.
+            time.sleep(2)
+            act(planner)
+            time.sleep(5)
+        finally:
+            record.end()
+
+    @classmethod
+    def ask_for_a_plan(cls, planner):
+        sent = SentGoal(action_client(), warehouse_goal())
         assert sent.wait_for_end(), planner.output()
         assert sent.result().outcome == PlanOutcome.SUCCEEDED, sent.result().message
         cls.makespan = sent.result().plan.makespan
-        time.sleep(5)
 
-    def play(self, *arguments):
+    def play(self, *arguments, bag=None, env=None):
         program = Program("roslaunch", "split_mapf", "playback.launch", "rviz:=false",
-                          "bag:=" + self.bag, *arguments)
+                          "bag:=" + (bag or self.bag), *arguments, env=env)
         self.addCleanup(program.end)
         return program
 
-    def test_keeps_map_plan_and_markers(self):
+    def record_markers(self):
+        markers = Recorder("replay/markers", MarkerArray)
+        self.addCleanup(markers.close)
+        return markers
+
+    def assert_shows_the_whole_plan(self, markers, playback):
+        """From the first robot's start to its goal, of the warehouse of 24 columns."""
+        self.assertTrue(markers.wait_for(1, 30), playback.output())
+        self.assertEqual(first_robot(markers.messages[0]), (1.5, 10.5))
+        self.assertTrue(wait_until(lambda: first_robot(markers.messages[-1]) == (22.5, 10.5), 60),
+                        first_robot(markers.messages[-1]))
+        self.assertIsNone(playback.process.poll(), playback.output())
+
+    def test_keeps_what_was_asked_and_what_was_answered(self):
         with rosbag.Bag(self.bag) as bag:
             found = bag.get_type_and_topic_info().topics
-            self.assertGreaterEqual(found["/map"].message_count, 1)
-            self.assertGreaterEqual(found["/split_mapf/plan"].message_count, 1)
-            self.assertGreaterEqual(found["/split_mapf/planning_grid"].message_count, 1)
-            self.assertGreater(found["/replay/markers"].message_count, 40)
+            for topic in LATCHED_TOPICS:
+                self.assertGreaterEqual(count_of(found, topic), 1, topic)
+            for name in ("goal", "result"):
+                self.assertEqual(count_of(found, "/split_mapf/plan_paths/" + name), 1, name)
+            self.assertGreaterEqual(count_of(found, "/split_mapf/plan_paths/feedback"), 1)
+            self.assertGreaterEqual(count_of(found, "/diagnostics"), 1)
+            self.assertEqual(count_of(found, "/replay/markers"), 0)
             plan = next(message for _, message, _ in bag.read_messages("/split_mapf/plan"))
             self.assertEqual(plan.makespan, self.makespan)
+            self.assertEqual(bag.get_compression_info().compression, "lz4")
+        self.assertLess(os.path.getsize(self.bag), 200000)
 
-    def test_replays_the_plan_on_the_bags_clock(self):
-        markers = Recorder("replay/markers", MarkerArray)
-        clock = Recorder("clock", Clock)
-        self.addCleanup(markers.close)
-        self.addCleanup(clock.close)
-        # Twice as fast: the clock, and with it the robots.
-        playback = self.play("rate:=2")
-        self.assertTrue(markers.wait_for(20), playback.output())
-        self.assertIsNotNone(playback.wait(30), playback.output())
+    def test_keeps_markers_when_asked(self):
+        with rosbag.Bag(self.marker_bag) as bag:
+            found = bag.get_type_and_topic_info().topics
+            self.assertGreater(count_of(found, "/replay/markers"), 40)
+
+    def test_a_recorded_goal_is_solved_again(self):
         with rosbag.Bag(self.bag) as bag:
-            recorded = (bag.get_start_time(), bag.get_end_time())
-        positions = [first_robot(array) for array in markers.messages]
-        self.assertGreater(len(set(positions)), 10)
-        self.assertEqual(positions[0], (1.5, 10.5))
-        for array in markers.messages[1:]:
-            stamp = array.markers[0].header.stamp.to_sec()
-            self.assertTrue(recorded[0] - 1 <= stamp <= recorded[1] + 1, stamp)
-        # One step a second of the bag's time.
-        travelled = max(x for x, _ in positions) - 1.5
-        played = clock.messages[-1].clock.to_sec() - recorded[0]
-        self.assertAlmostEqual(travelled, played - 2, delta=2.5)
+            recorded = next(message for _, message, _ in
+                            bag.read_messages("/split_mapf/plan_paths/goal"))
+        planner = Program(*self.planner_command)
+        self.addCleanup(planner.end)
+        sent = SentGoal(action_client(), recorded.goal)
+        self.assertTrue(sent.wait_for_end(), planner.output())
+        self.assertEqual(sent.result().outcome, PlanOutcome.SUCCEEDED)
+        self.assertEqual(sent.result().plan.makespan, self.makespan)
+        planner.end()
 
-    def test_goes_on_when_a_looped_bag_turns_time_back(self):
-        markers = Recorder("replay/markers", MarkerArray)
+    def test_records_the_transforms_of_the_robots(self):
+        record = Program("roslaunch", "split_mapf", "record.launch",
+                         "bag:=" + os.path.join(self.directory, "unused"))
+        self.addCleanup(record.end)
+
+        def recorded_topics():
+            _, subscribers, _ = rospy.get_master().getSystemState()[2]
+            return {topic for topic, nodes in subscribers if "/record" in nodes}
+        self.assertTrue(wait_until(lambda: {"/tf", "/tf_static"} <= recorded_topics()),
+                        recorded_topics())
+        record.end()
+
+    def test_replays_the_plan_on_the_bags_clock_and_beyond_its_end(self):
+        goals = Recorder("split_mapf/plan_paths/goal", PlanPathsActionGoal)
         clock = Recorder("clock", Clock)
-        self.addCleanup(markers.close)
+        self.addCleanup(goals.close)
         self.addCleanup(clock.close)
-        playback = self.play("rate:=4", "loop:=true")
+        markers = self.record_markers()
+        # Four times as fast: the clock, and with it the robots.
+        playback = self.play("rate:=4")
+        self.assert_shows_the_whole_plan(markers, playback)
+        with rosbag.Bag(self.bag) as bag:
+            begin, end = bag.get_start_time(), bag.get_end_time()
+        for array in markers.messages:
+            stamp = array.markers[0].header.stamp.to_sec()
+            # Before the first message of the clock time is 0.
+            self.assertTrue(stamp == 0 or stamp >= begin - 1, stamp)
+        # One step a second of the bag's time.
+        moving = [array for array in markers.messages
+                  if 1.5 < first_robot(array)[0] < 22.5]
+        passed = (moving[-1].markers[0].header.stamp - moving[0].markers[0].header.stamp).to_sec()
+        way = first_robot(moving[-1])[0] - first_robot(moving[0])[0]
+        self.assertLessEqual(way, passed + 1)
+        self.assertGreater(clock.messages[-1].clock.to_sec(), end)
+        # A goal of the bag does not reach a planner that runs.
+        self.assertEqual(goals.messages, [])
 
-        def turned_back():
-            times = [message.clock for message in list(clock.messages)]
-            return any(after < before for before, after in zip(times, times[1:]))
-        self.assertTrue(wait_until(turned_back, 30), playback.output())
-        count = len(markers.messages)
+    def test_shows_a_bag_of_latched_topics_from_where_it_lies(self):
+        latched = os.path.join(self.directory, "latched topics.bag")
+        with rosbag.Bag(self.bag) as bag, rosbag.Bag(latched, "w") as written:
+            messages = list(bag.read_messages(LATCHED_TOPICS, return_connection_header=True))
+            for topic, message, _, header in messages:
+                written.write(topic, message, messages[0][2], connection_header=header)
+        markers = self.record_markers()
+        playback = self.play("replay_speed:=4", bag="latched topics.bag",
+                             env={"PWD": self.directory})
+        self.assert_shows_the_whole_plan(markers, playback)
+
+    def test_obeys_the_control_service_after_the_end_of_the_bag(self):
+        markers = self.record_markers()
+        playback = self.play("replay_speed:=20", "rate:=4")
+        self.assert_shows_the_whole_plan(markers, playback)
+        control = rospy.ServiceProxy("replay/control", ReplayControl)
+        self.assertTrue(control(ReplayControlRequest.SEEK, 0).ok)
+        self.assertTrue(control(ReplayControlRequest.PLAY, 0).ok)
+        self.assertTrue(wait_until(lambda: first_robot(markers.messages[-1]) == (1.5, 10.5) or
+                                   first_robot(markers.messages[-1])[0] < 20))
+        self.assertTrue(wait_until(lambda: first_robot(markers.messages[-1]) == (22.5, 10.5)))
+        self.assertTrue(control(ReplayControlRequest.STEP, -2).ok)
+        self.assertTrue(wait_until(lambda: first_robot(markers.messages[-1]) != (22.5, 10.5)))
+
+    def test_shows_the_plan_again_when_looped(self):
+        markers = self.record_markers()
+        playback = self.play("replay_speed:=8", "rate:=4", "loop:=true")
+        self.assert_shows_the_whole_plan(markers, playback)
+        seen = len(markers.messages)
         self.assertTrue(wait_until(
-            lambda: len({first_robot(array) for array in list(markers.messages)[count:]}) > 5, 20),
+            lambda: min(first_robot(array)[0] for array in markers.messages[seen - 1:]) < 3, 20),
             playback.output())
-        self.assertIsNone(playback.process.poll())
+
+    def test_ends_with_an_error_without_its_bag(self):
+        playback = self.play(bag="/nowhere.bag")
+        self.assertIsNotNone(playback.wait(30), playback.output())
+        self.assertIn("/nowhere.bag", playback.output())
 
     def test_shows_the_recorded_markers_when_asked(self):
-        markers = Recorder("replay/markers", MarkerArray)
-        self.addCleanup(markers.close)
-        playback = self.play("recorded_markers:=true", "rate:=4")
+        markers = self.record_markers()
+        playback = self.play("recorded_markers:=true", "rate:=4", bag=self.marker_bag)
         self.assertTrue(markers.wait_for(40), playback.output())
         self.assertNotIn("process[replay", playback.output())
+        self.assertIsNotNone(playback.wait(30), playback.output())
 
 
 if __name__ == "__main__":

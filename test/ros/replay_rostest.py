@@ -12,18 +12,10 @@ import rosunit
 from nav_msgs.msg import OccupancyGrid, Path
 from visualization_msgs.msg import Marker, MarkerArray
 
-from ros_processes import (Program, Recorder, SentGoal, action_client, wait_until, warehouse_goal,
-                           write_instance)
+from ros_processes import (Program, Recorder, SentGoal, action_client, robots_of, wait_until,
+                           warehouse_goal, write_instance)
 from split_mapf.msg import MultiRobotPlan, PlanOutcome
 from split_mapf.srv import ReplayControl, ReplayControlRequest
-
-
-def robots_of(array):
-    """Positions of the robots' marker."""
-    for marker in array.markers:
-        if marker.ns == "robots":
-            return [(point.x, point.y) for point in marker.points]
-    return []
 
 
 class Replay(unittest.TestCase):

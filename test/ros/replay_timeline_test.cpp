@@ -24,6 +24,49 @@ TEST(ReplayTimeline, FollowsTheClockAtThePlansPace) {
   EXPECT_DOUBLE_EQ(timeline.position(), 10);
 }
 
+TEST(ReplayTimeline, ShowsALongPlanInAMinuteUnlessASpeedIsChosen) {
+  ReplayTimeline timeline;
+  timeline.load(460, 1);
+  EXPECT_NEAR(timeline.speed(), 460 / 60.0, 1e-9);
+  timeline.advance(100);
+  timeline.advance(130);
+  EXPECT_NEAR(timeline.position(), 230, 1e-9);
+  timeline.setSpeed(1);
+  timeline.advance(131);
+  EXPECT_NEAR(timeline.position(), 231, 1e-9);
+  timeline.setSpeed(0);
+  timeline.load(30, 1);
+  EXPECT_EQ(timeline.speed(), 1);
+  timeline.load(10, 1e9);
+  timeline.advance(0);
+  timeline.advance(60);
+  EXPECT_NEAR(timeline.position(), 10, 1e-9);
+}
+
+TEST(ReplayTimeline, StartsAnewUnlessPaused) {
+  ReplayTimeline timeline = tenSteps();
+  timeline.advance(102);
+  timeline.startAnew();
+  EXPECT_EQ(timeline.position(), 0);
+  timeline.advance(5000);
+  EXPECT_EQ(timeline.position(), 0);
+  timeline.advance(5001);
+  EXPECT_DOUBLE_EQ(timeline.position(), 2);
+  timeline.pause();
+  timeline.startAnew();
+  EXPECT_DOUBLE_EQ(timeline.position(), 2);
+}
+
+TEST(ReplayTimeline, LetsTimePassWhileHeld) {
+  ReplayTimeline timeline = tenSteps();
+  timeline.advance(101);
+  timeline.hold();
+  timeline.advance(200);
+  EXPECT_DOUBLE_EQ(timeline.position(), 2);
+  timeline.advance(201);
+  EXPECT_DOUBLE_EQ(timeline.position(), 4);
+}
+
 TEST(ReplayTimeline, StandsWhenTimeStandsOrJumpsBack) {
   ReplayTimeline timeline = tenSteps();
   timeline.advance(101);

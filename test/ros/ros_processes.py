@@ -218,3 +218,11 @@ class Recorder:
 
     def close(self):
         self.subscriber.unregister()
+
+
+def robots_of(array):
+    """Positions of the robots' marker."""
+    for marker in array.markers:
+        if marker.ns == "robots":
+            return [(point.x, point.y) for point in marker.points]
+    return []

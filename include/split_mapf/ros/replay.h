@@ -14,6 +14,7 @@
 #include <split_mapf/ReplayControl.h>
 
 #include "split_mapf/ros/markers.h"
+#include "split_mapf/ros/replay_clock.h"
 #include "split_mapf/ros/replay_timeline.h"
 
 namespace split_mapf {
@@ -22,17 +23,21 @@ namespace split_mapf {
 struct ReplayOptions {
   MarkerStyle style;
   double rate_hz = 20;  ///< markers a second of wall time, at most
-  double speed = 1;     ///< times the plan's own pace
-  bool loop = false;    ///< start again at the end
+  /// Times the plan's own pace; 0: that pace, or as much faster as lets a plan last a minute.
+  double speed = 0;
+  bool loop = false;             ///< start again at the end
+  bool wait_for_viewer = false;  ///< stand until somebody has subscribed ~markers for a moment
 };
 
-/// Reads ~robot_size, ~trail_steps, ~show_goals, ~show_labels, ~rate, ~speed and ~loop.
+/// Reads ~robot_size, ~trail_steps, ~show_goals, ~show_labels, ~rate, ~speed, ~loop and
+/// ~wait_for_viewer.
 /// @throws OptionError naming the parameter.
 ReplayOptions readReplayOptions(const XmlRpc::XmlRpcValue& parameters);
 
 /// Shows plans as moving markers: subscribes `plan`, `planning_grid` and `layout`, publishes
 /// ~markers and ~layout_markers (latched), serves ~control. A new plan starts at once, at its step
-/// 0. Paced by ROS time. Thread-safe.
+/// 0, and the one that is shown starts again when ROS time begins or jumps back. Paced by ROS time;
+/// by wall time where time is simulated and nobody publishes the clock. Thread-safe.
 class Replay {
  public:
   Replay(ros::NodeHandle node, ros::NodeHandle private_node, const ReplayOptions& options);
@@ -45,18 +50,23 @@ class Replay {
   /// Carries a command out and says what was done. @throws InputError.
   std::string obey(const ReplayControl::Request& request);
   void tick();
+  void moveLocked(ros::Time now);
+  /// Whether whoever opened a viewer has had the time to see something.
+  bool isWatchedLocked();
   void publishLocked();
   /// Warns when the plan was made on another grid than the one that is shown.
   void compareGridsLocked();
 
   ReplayOptions options_;
   std::mutex mutex_;
+  ReplayClock clock_;
   ReplayTimeline timeline_;
   std::optional<PlanMarkers> markers_;
   std::optional<nav_msgs::MapMetaData> plan_grid_;
   std::optional<nav_msgs::MapMetaData> shown_grid_;
   ros::WallTime compare_at_;  ///< when plan and grid should both have arrived; zero: done
   ros::Time last_tick_;
+  std::optional<ros::SteadyTime> watched_since_;
   std::optional<double> shown_position_;
   std::size_t shown_labels_ = 0;
 
