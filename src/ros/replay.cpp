@@ -18,7 +18,7 @@ namespace {
 // Plan and grid come on two topics, in any order.
 constexpr double kComparisonDelaySec = 1.0;
 // rviz subscribes some time before it draws for the first time.
-constexpr double kFirstLookSec = 2.0;
+constexpr double kFirstLookSec = 3.0;
 
 void requireAtLeast(double least, const char* name, double value) {
   if (!std::isfinite(value) || value < least) {
