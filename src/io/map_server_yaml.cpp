@@ -6,6 +6,7 @@
 #include <set>
 
 #include "io/file_bytes.h"
+#include "io/line_reader.h"
 
 namespace split_mapf {
 namespace {
@@ -118,17 +119,23 @@ class YamlReader {
     return {values[0], values[1], values[2]};
   }
 
+  // map_server itself reads a number here, later ones a truth value of YAML.
   bool negate() const {
-    const std::string text = scalar("negate", "0 or 1");
-    if (text == "1" || text == "true") return true;
-    if (text != "0" && text != "false") refuse("negate", "0 or 1");
-    return false;
+    const std::string expected = "0 or 1, or false or true";
+    const std::string text = lowerCase(scalar("negate", expected));
+    for (const char* word : {"1", "true", "yes", "on", "y"}) {
+      if (text == word) return true;
+    }
+    for (const char* word : {"0", "false", "no", "off", "n"}) {
+      if (text == word) return false;
+    }
+    refuse("negate", expected);
   }
 
   MapMode mode() const {
     const std::string expected = "trinary, scale or raw";
     if (!root_["mode"]) return MapMode::kTrinary;
-    const std::string text = scalar("mode", expected);
+    const std::string text = lowerCase(scalar("mode", expected));
     if (text == "scale") return MapMode::kScale;
     if (text == "raw") return MapMode::kRaw;
     if (text != "trinary") refuse("mode", expected);

@@ -2,15 +2,13 @@
 
 #include "io/file_bytes.h"
 #include "io/line_reader.h"
+#include "io/scenario_row.h"
 #include "split_mapf/core/distance_table.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/io/movingai.h"
 
 namespace split_mapf {
 namespace {
-
-constexpr const char* kRowShape =
-    "9 columns: bucket, map, width, height, start x, start y, goal x, goal y, length";
 
 std::string sizeOf(std::int64_t width, std::int64_t height) {
   return std::to_string(width) + "x" + std::to_string(height);
@@ -24,49 +22,52 @@ class ScenarioReader {
   ScenarioReader(const std::string& path, const Grid& grid) : lines_(path), grid_(grid) {}
 
   Scenario read(std::optional<std::uint32_t> agents) {
-    readVersion();
     Scenario scenario;
-    while (!agents || scenario.starts.size() < *agents) {
-      if (lines_.onlyBlankLinesLeft()) break;
-      readRow(*lines_.next(), scenario);
+    std::optional<std::string> row = firstRow();
+    for (; row; row = lines_.nextFilled()) {
+      readRow(*row, scenario);
+      if (agents && scenario.starts.size() == *agents) return scenario;
     }
     requireRows(scenario.starts.size(), agents);
     return scenario;
   }
 
  private:
-  void readVersion() {
-    const std::string expected = "'version 1'";
-    const std::string line = lines_.require(expected);
-    const std::vector<std::string> words = splitFields(line);
+  // Behind the version, or the first line where there is none: a row that says the map's size can
+  // be of no other version.
+  std::optional<std::string> firstRow() {
+    const std::string line = lines_.requireFilled("'version 1'");
+    if (isWholeScenarioRow(line)) return line;
+    const std::vector<std::string> words = splitWords(lowerCase(line));
     const bool known =
         words.size() == 2 && words[0] == "version" && (words[1] == "1" || words[1] == "1.0");
-    if (!known) lines_.fail(quoted(line), expected);
+    if (!known) lines_.fail(quoted(line), "'version 1'");
+    return lines_.nextFilled();
   }
 
   void requireRows(std::size_t rows, std::optional<std::uint32_t> agents) {
-    if (rows > 0 && (!agents || rows == *agents)) return;
-    lines_.next();
+    if (rows > 0 && !agents) return;
     lines_.fail(
         "the end of the file after " + std::to_string(rows) + (rows == 1 ? " robot" : " robots"),
         agents ? std::to_string(*agents) + " robots" : "at least one");
   }
 
-  void readRow(const std::string& row, Scenario& scenario) {
-    const std::vector<std::string> fields = splitFields(row);
-    if (fields.size() != 9) {
-      lines_.fail(std::to_string(fields.size()) + " columns: " + quoted(row), kRowShape);
+  void readRow(const std::string& line, Scenario& scenario) {
+    const std::optional<ScenarioRow> row = splitScenarioRow(line);
+    if (!row) {
+      lines_.fail(std::to_string(countColumns(line)) + " columns: " + quoted(line),
+                  kScenarioRowShape);
     }
-    integerIn(fields[0], "bucket");
-    const std::int64_t width = integerIn(fields[2], "width");
-    const std::int64_t height = integerIn(fields[3], "height");
+    integerIn(row->bucket, "bucket");
+    const std::int64_t width = integerIn(row->width, "width");
+    const std::int64_t height = integerIn(row->height, "height");
     if (width != grid_.width() || height != grid_.height()) {
       lines_.fail("a map of " + sizeOf(width, height), "the map's own size, " + sizeOf(grid_));
     }
-    requireLength(fields[8]);
+    requireLength(row->length);
     const std::string robot = "robot " + std::to_string(scenario.starts.size()) + ": ";
-    scenario.starts.push_back(freeCell(robot + "start ", fields[4], fields[5]));
-    scenario.goals.push_back(freeCell(robot + "goal ", fields[6], fields[7]));
+    scenario.starts.push_back(freeCell(robot + "start ", row->start_x, row->start_y));
+    scenario.goals.push_back(freeCell(robot + "goal ", row->goal_x, row->goal_y));
   }
 
   std::int64_t integerIn(const std::string& field, const std::string& column) {
@@ -75,7 +76,10 @@ class ScenarioReader {
     return *value;
   }
 
+  // Nobody uses it, but a word there would mean that the columns are others.
   void requireLength(const std::string& field) {
+    const std::string word = lowerCase(field);
+    if (word.empty() || word == "inf" || word == "nan") return;
     double length = 0;
     std::istringstream in(field);
     in.imbue(std::locale::classic());

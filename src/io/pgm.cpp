@@ -108,8 +108,7 @@ class PgmReader {
     }
     ++position_;
     const std::size_t bytes_a_sample = maxval_ > 255 ? 2 : 1;
-    const std::size_t left = bytes_.size() - position_;
-    if (left != samples_ * bytes_a_sample) failOfLength(left, samples_ * bytes_a_sample);
+    requireLength(samples_ * bytes_a_sample);
     std::vector<float> values(samples_);
     for (float& value : values) {
       std::uint32_t sample = static_cast<unsigned char>(bytes_[position_]);
@@ -126,15 +125,30 @@ class PgmReader {
     return values;
   }
 
-  [[noreturn]] void failOfLength(std::size_t left, std::size_t needed) {
-    position_ += left < needed ? left : needed;
+  // White space may follow the samples, as text editors and copies leave it; SDL_image and netpbm
+  // pass over whatever comes. Other bytes would mean that the size in the header is not the
+  // picture's, and so would a CR LF before the samples, of which CR alone is the header's.
+  void requireLength(std::size_t needed) {
+    const std::size_t begin = position_;
+    const std::size_t left = bytes_.size() - begin;
     if (left < needed) {
+      position_ = bytes_.size();
       fail("read the end of the file after " + std::to_string(left) +
            " bytes of samples, expected " + std::to_string(needed));
     }
-    fail("read " + std::to_string(left - needed) +
-         " more bytes, expected the end of the file after " + std::to_string(needed) +
-         " bytes of samples");
+    if (left == needed) return;
+    if (bytes_[begin - 1] == '\r' && bytes_[begin] == '\n') {
+      fail("read CR LF and " + std::to_string(left - 1) + " bytes, expected one white space and " +
+           std::to_string(needed) + " bytes of samples");
+    }
+    position_ = begin + needed;
+    while (position_ < bytes_.size() && isBlank(bytes_[position_])) ++position_;
+    if (position_ < bytes_.size()) {
+      const std::size_t extra = left - needed;
+      fail("read " + std::to_string(extra) + " more byte" + (extra == 1 ? "" : "s") +
+           ", expected the end of the file after " + std::to_string(needed) + " bytes of samples");
+    }
+    position_ = begin;
   }
 
   const std::string& path_;

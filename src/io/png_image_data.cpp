@@ -11,13 +11,17 @@ namespace {
 // Decompresses image data piece by piece and keeps count of it.
 class ImageDataCheck {
  public:
-  explicit ImageDataCheck(std::size_t row_bytes) : row_bytes_(row_bytes) { inflateInit(&stream_); }
+  explicit ImageDataCheck(const std::vector<PngRows>& expected) : expected_(expected) {
+    inflateInit(&stream_);
+  }
   ~ImageDataCheck() { inflateEnd(&stream_); }
   ImageDataCheck(const ImageDataCheck&) = delete;
   ImageDataCheck& operator=(const ImageDataCheck&) = delete;
 
   // What is wrong with the data, or nothing.
-  std::string run(std::string data, std::size_t expected) {
+  std::string run(std::string data) {
+    std::size_t expected = 0;
+    for (const PngRows& pass : expected_) expected += pass.row_bytes * pass.rows;
     stream_.next_in = reinterpret_cast<Bytef*>(&data[0]);
     stream_.avail_in = static_cast<uInt>(data.size());
     int status = Z_OK;
@@ -45,16 +49,25 @@ class ImageDataCheck {
  private:
   // Every row begins with the number of its filter.
   void count(std::size_t produced) {
-    const std::size_t row = (bytes_ + row_bytes_ - 1) / row_bytes_;
-    for (std::size_t i = row * row_bytes_; i < bytes_ + produced; i += row_bytes_) {
-      const int filter = block_[i - bytes_];
+    for (; pass_ < expected_.size() && row_begin_ < bytes_ + produced; goToNextRow()) {
+      const int filter = block_[row_begin_ - bytes_];
       if (filter > 4 && bad_filter_ < 0) bad_filter_ = filter;
     }
     bytes_ += produced;
   }
 
+  void goToNextRow() {
+    row_begin_ += expected_[pass_].row_bytes;
+    if (++row_ < expected_[pass_].rows) return;
+    row_ = 0;
+    ++pass_;
+  }
+
   z_stream stream_{};
-  std::size_t row_bytes_;
+  const std::vector<PngRows>& expected_;
+  std::size_t pass_ = 0;
+  std::size_t row_ = 0;
+  std::size_t row_begin_ = 0;
   std::size_t bytes_ = 0;
   int bad_filter_ = -1;
   std::array<unsigned char, 1U << 16> block_{};
@@ -62,8 +75,8 @@ class ImageDataCheck {
 
 }  // namespace
 
-std::string faultOfImageData(std::string data, std::size_t row_bytes, std::size_t expected) {
-  return ImageDataCheck(row_bytes).run(std::move(data), expected);
+std::string faultOfImageData(std::string data, const std::vector<PngRows>& expected) {
+  return ImageDataCheck(expected).run(std::move(data));
 }
 
 }  // namespace split_mapf

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <vector>
 
 #include "io/file_bytes.h"
 #include "io/map_picture.h"
@@ -15,17 +16,6 @@ namespace {
 
 constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
 constexpr int kPalette = 3;
-
-// A tRNS chunk that makes the first grey level transparent.
-std::string transparencyChunk() {
-  const std::string checked("tRNS\0\0", 6);
-  auto checksum = static_cast<std::uint32_t>(
-      crc32(0, reinterpret_cast<const Bytef*>(checked.data()), static_cast<uInt>(checked.size())));
-  std::string chunk("\0\0\0\2", 4);
-  chunk += checked;
-  for (int i = 0; i < 4; ++i, checksum <<= 8U) chunk += static_cast<char>(checksum >> 24U);
-  return chunk;
-}
 
 std::uint32_t bigEndianAt(const std::string& bytes, std::size_t i) {
   std::uint32_t value = 0;
@@ -61,13 +51,10 @@ class PngChecker {
       type = takeChunk(position, type.empty());
       position = next_;
     }
-    if (position != bytes_.size()) {
-      failAtByte(path_, position,
-                 "read " + std::to_string(bytes_.size() - position) +
-                     " more bytes, expected the end of the file after IEND");
+    if (isPng(bytes_.substr(position, kSignature.size()))) {
+      failAtByte(path_, position, "read a second PNG picture, expected the end of the file");
     }
     requireImageData(position);
-    unpackGrey();
     return std::move(found_);
   }
 
@@ -178,9 +165,12 @@ class PngChecker {
     if (bytes_[data + 10] != 0 || bytes_[data + 11] != 0) {
       failAtByte(path_, data + 10, "read an unknown compression or filter, expected 0");
     }
-    if (bytes_[data + 12] != 0) {
-      failAtByte(path_, data + 12, "read an interlaced picture, expected one without interlacing");
+    const unsigned interlace = static_cast<unsigned char>(bytes_[data + 12]);
+    if (interlace > 1) {
+      failAtByte(path_, data + 12,
+                 "read interlace method " + std::to_string(interlace) + ", expected 0 or 1");
     }
+    found_.interlaced = interlace == 1;
     found_.has_alpha = found_.colour_type == 4 || found_.colour_type == 6;
   }
 
@@ -199,19 +189,33 @@ class PngChecker {
       failAtByte(path_, end, "read no PLTE chunk, expected the palette");
     }
     if (image_data_.empty()) failAtByte(path_, end, "read no IDAT chunk, expected image data");
-    const std::size_t bits = channels_ * static_cast<std::size_t>(found_.bit_depth) * found_.width;
-    const std::size_t row_bytes = 1 + (bits + 7) / 8;
-    const std::string fault =
-        faultOfImageData(std::move(image_data_), row_bytes, row_bytes * found_.height);
+    const std::string fault = faultOfImageData(std::move(image_data_), expectedRows());
     if (!fault.empty()) failAtByte(path_, first_data_, fault);
   }
 
-  // GIL reads beyond the row buffer where grey samples share a byte. With a transparent level
-  // named, libpng spreads them to whole bytes first; has_alpha stays false.
-  void unpackGrey() {
-    if (found_.colour_type != 0 || found_.bit_depth >= 8 || found_.has_alpha) return;
-    constexpr std::size_t kHeaderChunk = 25;
-    found_.essential_bytes.insert(kSignature.size() + kHeaderChunk, transparencyChunk());
+  PngRows rowsOf(std::size_t width, std::size_t height) const {
+    const std::size_t bits = channels_ * static_cast<std::size_t>(found_.bit_depth) * width;
+    return {1 + (bits + 7) / 8, height};
+  }
+
+  // An interlaced picture comes as seven coarser ones, of which small pictures lack some.
+  std::vector<PngRows> expectedRows() const {
+    if (!found_.interlaced) return {rowsOf(found_.width, found_.height)};
+    struct Pass {
+      std::size_t first_column, first_row, columns_apart, rows_apart;
+    };
+    constexpr Pass kPasses[] = {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4},
+                                {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}};
+    const auto count = [](std::size_t side, std::size_t first, std::size_t apart) {
+      return (side + apart - 1 - first) / apart;
+    };
+    std::vector<PngRows> rows;
+    for (const Pass& pass : kPasses) {
+      const std::size_t columns = count(found_.width, pass.first_column, pass.columns_apart);
+      const std::size_t lines = count(found_.height, pass.first_row, pass.rows_apart);
+      if (columns > 0 && lines > 0) rows.push_back(rowsOf(columns, lines));
+    }
+    return rows;
   }
 
   const std::string& path_;

@@ -11,7 +11,8 @@ struct PngStructure {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   int bit_depth = 0;
-  int colour_type = 0;     ///< as in the PNG specification: 0, 2, 3, 4 or 6
+  int colour_type = 0;  ///< as in the PNG specification: 0, 2, 3, 4 or 6
+  bool interlaced = false;
   bool has_alpha = false;  ///< by an alpha channel or by a tRNS chunk
   /// The file with nothing but the chunks that decide the pixels' values.
   std::string essential_bytes;
@@ -22,8 +23,8 @@ bool isPng(const std::string& bytes);
 
 /// Checks a PNG file before libpng sees it: chunks, checksums, header, and the length of the
 /// decompressed image. libpng reports through longjmp and on standard error, and names no place.
-/// @throws InputError "path: byte N: ..." for what is damaged, cut off or not supported
-/// (interlacing). Cost: O(pixels).
+/// What stands behind its end is left alone, as all readers do, unless it is a second picture.
+/// @throws InputError "path: byte N: ..." for what is damaged or cut off. Cost: O(pixels).
 PngStructure checkPng(const std::string& path, const std::string& bytes);
 
 }  // namespace split_mapf

@@ -67,6 +67,35 @@ TEST_F(MapServerTest, NegatesBrightness) {
             (Occupancy{0, 100, -1}));
 }
 
+TEST_F(MapServerTest, ReadsNegateAsEveryMapServerDoes) {
+  const auto negated = [&](const std::string& value) {
+    std::string keys = yaml_keys;
+    keys.replace(keys.find("negate: 0"), 9, "negate: " + value);
+    return mapOf("image: a.pgm\n" + keys, "0", 1).occupancy == Occupancy{0};
+  };
+  for (const char* no : {"0", "false", "False", "FALSE", "no", "No", "off", "n", "'0'"}) {
+    EXPECT_FALSE(negated(no)) << no;
+  }
+  for (const char* yes : {"1", "true", "True", "TRUE", "yes", "Yes", "on", "y"}) {
+    EXPECT_TRUE(negated(yes)) << yes;
+  }
+}
+
+TEST_F(MapServerTest, ReadsTheModeInAnyCase) {
+  const std::string picture = "image: a.pgm\nmode: ";
+  EXPECT_EQ(mapOf(picture + "Trinary\n" + yaml_keys, "100", 1).occupancy, (Occupancy{-1}));
+  EXPECT_EQ(mapOf(picture + "SCALE\n" + yaml_keys, "147", 1).occupancy, (Occupancy{50}));
+  EXPECT_EQ(mapOf(picture + "Raw\n" + yaml_keys, "64", 1).occupancy, (Occupancy{64}));
+}
+
+TEST_F(MapServerTest, ReadsCarriageReturnsAndAByteOrderMark) {
+  std::string text = "\xef\xbb\xbfimage: a.pgm\n" + yaml_keys + "mode: trinary\n";
+  for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 2)) {
+    text.insert(at, "\r");
+  }
+  EXPECT_EQ(mapOf(text, "0 255", 2).occupancy, (Occupancy{100, 0}));
+}
+
 TEST_F(MapServerTest, ReadsScale) {
   // 89.25 is the brightness of occupied_thresh, 205.02 that of free_thresh.
   const OccupancyMap map =
@@ -147,7 +176,7 @@ TEST_F(MapServerTest, NamesMalformedYaml) {
 TEST_F(MapServerTest, NamesMissingAndRepeatedKeys) {
   EXPECT_EQ(errorOfYaml(yaml_keys), "a.yaml:1: read no key 'image', expected it with a path");
   EXPECT_EQ(errorOfYaml("image: a.pgm\nresolution: 1\norigin: [0, 0, 0]\n"),
-            "a.yaml:1: read no key 'negate', expected it with 0 or 1");
+            "a.yaml:1: read no key 'negate', expected it with 0 or 1, or false or true");
   EXPECT_EQ(errorOfYaml("image: a.pgm\nresolution: 1\n"),
             "a.yaml:1: read no key 'origin', expected it with [x, y, yaw]");
   EXPECT_EQ(errorOfYaml("image: a.pgm\n" + yaml_keys + "image: b.pgm\n"),
@@ -174,7 +203,7 @@ TEST_F(MapServerTest, NamesBadValues) {
             "a.yaml:3: origin: read no list of three, expected [x, y, yaw], three finite numbers");
   EXPECT_EQ(with("origin", "[0, 0, north]"),
             "a.yaml:3: origin: read 'north', expected [x, y, yaw], three finite numbers");
-  EXPECT_EQ(with("negate", "2"), "a.yaml:4: negate: read '2', expected 0 or 1");
+  EXPECT_EQ(with("negate", "2"), "a.yaml:4: negate: read '2', expected 0 or 1, or false or true");
   EXPECT_EQ(with("occupied_thresh", "65"),
             "a.yaml:5: occupied_thresh: read '65', expected a number from 0 to 1");
   EXPECT_EQ(with("free_thresh", "-0.1"),

@@ -19,7 +19,7 @@ const std::string map_head = "type octile\nheight 2\nwidth 3\nmap\n";
 
 TEST_F(MovingAiMapTest, ReadsEverySymbol) {
   const auto grid =
-      readMovingAiMap(file("a.map", "type octile\nheight 2\nwidth 4\nmap\n.G.S\n@OTW\n"));
+      readMovingAiMap(file("a.map", "type octile\nheight 2\nwidth 4\nmap\n.GSE\n@OTW\n"));
   EXPECT_EQ(grid->width(), 4U);
   EXPECT_EQ(grid->height(), 2U);
   for (int x = 0; x < 4; ++x) {
@@ -42,10 +42,14 @@ TEST_F(MovingAiMapTest, RowsCountFromTheTop) {
 }
 
 TEST_F(MovingAiMapTest, NamesTheFaultyHeaderLine) {
-  EXPECT_EQ(errorOfMap(""), "a.map:1: read the end of the file, expected 'type octile'");
+  EXPECT_EQ(errorOfMap(""),
+            "a.map:1: read the end of the file, expected 'type octile' or 'height N' with N from 1 "
+            "to 32768");
+  EXPECT_EQ(errorOfMap("4,4\n"),
+            "a.map:1: read '4,4', expected 'type octile' or 'height N' with N from 1 to 32768");
   EXPECT_EQ(errorOfMap("type tile\n"), "a.map:1: read 'type tile', expected 'type octile'");
-  EXPECT_EQ(errorOfMap("type octile\nwidth 3\n"),
-            "a.map:2: read 'width 3', expected 'height N' with N from 1 to 32768");
+  EXPECT_EQ(errorOfMap("type octile\nwidth 3\nmap\n"),
+            "a.map:3: read 'map', expected 'height N' with N from 1 to 32768");
   EXPECT_EQ(errorOfMap("type octile\nheight 3\nwidth x\n"),
             "a.map:3: read 'width x', expected 'width N' with N from 1 to 32768");
   EXPECT_EQ(errorOfMap("type octile\nheight 0\n"),
@@ -71,11 +75,86 @@ TEST_F(MovingAiMapTest, NamesTheFaultyRow) {
   EXPECT_EQ(errorOfMap(map_head + "...\n"),
             "a.map:6: read the end of the file, expected row 2 of 2");
   EXPECT_EQ(errorOfMap(map_head + "...\n.x.\n"),
-            "a.map:6: read 'x' in column 2, expected one of '.GS' (free) or '@OTW' (blocked)");
+            "a.map:6: read 'x' in column 2, expected one of '.GSE' (free) or '@OTW' (blocked)");
   EXPECT_EQ(errorOfMap(map_head + std::string("..\0\n", 4)),
-            "a.map:5: read '\\x00' in column 3, expected one of '.GS' (free) or '@OTW' (blocked)");
+            "a.map:5: read '\\x00' in column 3, expected one of '.GSE' (free) or '@OTW' (blocked)");
   EXPECT_EQ(errorOfMap(map_head + "...\n...\n...\n"),
             "a.map:7: read '...', expected the end of the file after 2 rows");
+}
+
+// Maps of the field that were refused.
+class MapOfTheFieldTest : public MovingAiMapTest {
+ protected:
+  // Rows of '.' and '@' of what was read; what the refusal says else.
+  std::string rowsOf(const std::string& text) const {
+    std::shared_ptr<const Grid> grid;
+    const std::string path = file("a.map", text);
+    const std::string error = errorOf([&] { grid = readMovingAiMap(path); });
+    if (!grid) return error;
+    std::string rows;
+    for (int y = 0; y < static_cast<int>(grid->height()); ++y) {
+      for (int x = 0; x < static_cast<int>(grid->width()); ++x) {
+        rows += grid->isFree({x, y}) ? '.' : '@';
+      }
+      rows += '/';
+    }
+    return rows;
+  }
+};
+
+TEST_F(MapOfTheFieldTest, ReadsHeadersInAnyOrderAndWithoutType) {
+  EXPECT_EQ(rowsOf("height 2\nwidth 3\nmap\n...\n.@.\n"), ".../.@./");
+  EXPECT_EQ(rowsOf("type octile\nwidth 3\nheight 2\nmap\n...\n.@.\n"), ".../.@./");
+  EXPECT_EQ(rowsOf("width 3\nheight 2\ntype octile\nmap\n...\n.@.\n"), ".../.@./");
+}
+
+TEST_F(MapOfTheFieldTest, ReadsHeaderWordsInAnyCaseAndParting) {
+  EXPECT_EQ(rowsOf("Type OCTILE\nHEIGHT 2\nWidth\t3\nMAP\n...\n.@.\n"), ".../.@./");
+  EXPECT_EQ(rowsOf(" type  octile\nheight\t 2 \nwidth 3\t\nmap \n...\n.@.\n"), ".../.@./");
+}
+
+TEST_F(MapOfTheFieldTest, ReadsBlanksBehindRows) {
+  EXPECT_EQ(rowsOf(map_head + "...  \n.@.\t\n"), ".../.@./");
+  EXPECT_EQ(rowsOf(map_head + "... \r\n.@."), ".../.@./");
+}
+
+TEST_F(MapOfTheFieldTest, ReadsEmptyLines) {
+  EXPECT_EQ(rowsOf("\ntype octile\n\nheight 2\nwidth 3\nmap\n\n...\n\n.@.\n\n \n"), ".../.@./");
+  EXPECT_EQ(rowsOf(map_head + "...\n\n"), "a.map:6: read an empty line, expected row 2 of 2");
+}
+
+TEST_F(MapOfTheFieldTest, ReadsEveryLineEndAndAByteOrderMark) {
+  EXPECT_EQ(rowsOf("\xef\xbb\xbf" + map_head + "...\n.@.\n"), ".../.@./");
+  EXPECT_EQ(rowsOf("height 2\rwidth 3\rmap\r...\r.@.\r"), ".../.@./");
+  EXPECT_EQ(rowsOf("height 2\r\nwidth 3\r\nmap\r\n...\r\n.@.\r\n"), ".../.@./");
+}
+
+TEST_F(MapOfTheFieldTest, TakesEmittersAndServicePointsAsFree) {
+  EXPECT_EQ(rowsOf(map_head + ".ES\n@E.\n"), ".../@../");
+}
+
+TEST_F(MapOfTheFieldTest, RefusesASecondMapAtItsFirstLine) {
+  const std::string map = map_head + "...\n.@.\n";
+  EXPECT_EQ(rowsOf(map + "\n" + map),
+            "a.map:8: read 'type octile', a second map, expected the end of the file after 2 rows");
+  EXPECT_EQ(rowsOf(map + "height 2\nwidth 3\nmap\n...\n.@.\n"),
+            "a.map:7: read 'height 2', a second map, expected the end of the file after 2 rows");
+  EXPECT_EQ(rowsOf(map + "\n\n...\n"),
+            "a.map:9: read '...', expected the end of the file after 2 rows");
+}
+
+TEST_F(MapOfTheFieldTest, RefusesAHeaderThatSaysThingsTwice) {
+  EXPECT_EQ(rowsOf("height 2\nheight 3\n"),
+            "a.map:2: read 'height 3' a second time, expected 'width N' with N from 1 to 32768");
+  EXPECT_EQ(rowsOf("type octile\ntype octile\n"),
+            "a.map:2: read 'type octile' a second time, expected 'height N' with N from 1 to "
+            "32768");
+}
+
+TEST_F(MapOfTheFieldTest, RefusesBlanksThatCouldBeCells) {
+  EXPECT_EQ(rowsOf(map_head + ". .\n.@.\n").substr(0, 28), "a.map:5: read ' ' in column ");
+  EXPECT_EQ(rowsOf(map_head + " ..\n.@.\n").substr(0, 28), "a.map:5: read ' ' in column ");
+  EXPECT_EQ(rowsOf(map_head + ".. \n.@.\n").substr(0, 28), "a.map:5: read 2 characters: ");
 }
 
 TEST_F(MovingAiMapTest, NamesAFileThatCannotBeRead) {

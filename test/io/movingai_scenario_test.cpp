@@ -47,9 +47,9 @@ TEST_F(ScenarioTest, TakesAMapNameWithBlanks) {
 
 TEST_F(ScenarioTest, NeedsTheVersion) {
   EXPECT_EQ(errorOfScenario(""), "a.scen:1: read the end of the file, expected 'version 1'");
-  EXPECT_EQ(errorOfScenario(good_row),
-            "a.scen:1: read '0\\x09a.map\\x093\\x092\\x090\\x090\\x092\\x091\\x093.4142', expected "
-            "'version 1'");
+  EXPECT_EQ(
+      errorOfScenario("0\ta.map\t0\t0\t2\t1\t3.4142\n"),
+      "a.scen:1: read '0\\x09a.map\\x090\\x090\\x092\\x091\\x093.4142', expected 'version 1'");
   EXPECT_EQ(errorOfScenario("version 2\n"), "a.scen:1: read 'version 2', expected 'version 1'");
 }
 
@@ -57,7 +57,7 @@ TEST_F(ScenarioTest, NeedsEnoughRows) {
   EXPECT_EQ(errorOfScenario(version_line + good_row, 2),
             "a.scen:3: read the end of the file after 1 robot, expected 2 robots");
   EXPECT_EQ(errorOfScenario(version_line + "\n", 2),
-            "a.scen:2: read the end of the file after 0 robots, expected 2 robots");
+            "a.scen:3: read the end of the file after 0 robots, expected 2 robots");
   EXPECT_EQ(errorOfScenario(version_line),
             "a.scen:2: read the end of the file after 0 robots, expected at least one");
   EXPECT_EQ(errorOfScenario(version_line + good_row, 0),
@@ -65,20 +65,87 @@ TEST_F(ScenarioTest, NeedsEnoughRows) {
 }
 
 TEST_F(ScenarioTest, NeedsWellFormedRows) {
-  EXPECT_EQ(errorOfScenario(version_line + "0\ta.map\t3\t2\t0\t0\t2\t1\n"),
-            "a.scen:2: read 8 columns: '0\\x09a.map\\x093\\x092\\x090\\x090\\x092\\x091', expected "
-            "9 columns: bucket, map, width, height, start x, start y, goal x, goal y, length");
-  EXPECT_EQ(errorOfScenario(version_line + "\n" + good_row),
-            "a.scen:2: read 0 columns: '', expected 9 columns: bucket, map, width, height, start "
-            "x, start y, goal x, goal y, length");
+  EXPECT_EQ(
+      errorOfScenario(version_line + "0\ta.map\t3\t2\t0\t0\t2\n"),
+      "a.scen:2: read 7 columns: '0\\x09a.map\\x093\\x092\\x090\\x090\\x092', expected 9 columns: "
+      "bucket, map, width, height, start x, start y, goal x, goal y, length");
+  EXPECT_EQ(errorOfScenario(version_line + "0 a.map 3 2 0 0 2 1 3 4\n").substr(0, 25),
+            "a.scen:2: read 10 columns");
+  EXPECT_EQ(errorOfScenario(version_line + "\n0\ta.map\t3\t2\t0\t0\t2\t1\t3\t4\n").substr(0, 25),
+            "a.scen:3: read 10 columns");
   EXPECT_EQ(errorOfScenario(version_line + "b\ta.map\t3\t2\t0\t0\t2\t1\t3\n"),
             "a.scen:2: read 'b', expected an integer as bucket");
   EXPECT_EQ(errorOfScenario(version_line + "0\ta.map\t3\t2\t0\t0.5\t2\t1\t3\n"),
             "a.scen:2: read '0.5', expected an integer as robot 0: start y");
-  EXPECT_EQ(errorOfScenario(version_line + "0\ta.map\t3\t2\t0\t0\t2\t\t3\n"),
-            "a.scen:2: read '', expected an integer as robot 0: goal y");
+  EXPECT_EQ(
+      errorOfScenario(version_line + "0\ta.map\t3\t2\t0\t0\t2\t\t3\n"),
+      "a.scen:2: read 8 columns: '0\\x09a.map\\x093\\x092\\x090\\x090\\x092\\x09\\x093', expected "
+      "9 columns: bucket, map, width, height, start x, start y, goal x, goal y, length");
   EXPECT_EQ(errorOfScenario(version_line + "0\ta.map\t3\t2\t0\t0\t2\t1\tlong\n"),
             "a.scen:2: read 'long', expected a number as length");
+}
+
+// Scenarios of the field that were refused.
+class ScenarioOfTheFieldTest : public ScenarioTest {
+ protected:
+  // "start>goal" of every robot; what the refusal says else.
+  std::string waysOf(const std::string& text) const {
+    Scenario scenario;
+    const std::string path = file("a.scen", text);
+    const std::string error = errorOf([&] { scenario = readMovingAiScenario(path, small_grid); });
+    if (!error.empty()) return error;
+    std::string ways;
+    for (std::size_t i = 0; i < scenario.starts.size(); ++i) {
+      ways += toString(scenario.starts[i]) + ">" + toString(scenario.goals[i]) + " ";
+    }
+    return ways;
+  }
+};
+
+TEST_F(ScenarioOfTheFieldTest, ReadsBlanksAtTheEndOfARow) {
+  EXPECT_EQ(waysOf(version_line + "0\ta.map\t3\t2\t0\t0\t2\t1\t3 \n"), "(0,0)>(2,1) ");
+  EXPECT_EQ(waysOf(version_line + "0\ta.map\t3\t2\t0\t0\t2\t1\t3.5\t\n"), "(0,0)>(2,1) ");
+  EXPECT_EQ(waysOf(version_line + "0\ta.map \t 3\t2\t 0\t0 \t2\t1\t3\n"), "(0,0)>(2,1) ");
+}
+
+TEST_F(ScenarioOfTheFieldTest, ReadsEmptyLines) {
+  EXPECT_EQ(waysOf("\nversion 1\n\n" + good_row + "  \n" + good_row + "\n"),
+            "(0,0)>(2,1) (0,0)>(2,1) ");
+}
+
+TEST_F(ScenarioOfTheFieldTest, ReadsSeveralTabs) {
+  EXPECT_EQ(waysOf(version_line + "0\t\ta.map\t\t3\t2\t0\t0\t2\t1\t3\n"), "(0,0)>(2,1) ");
+}
+
+TEST_F(ScenarioOfTheFieldTest, ReadsTabsAmongBlanks) {
+  EXPECT_EQ(waysOf(version_line + "0 a.map\t3 2\t0 0\t2  1\t3\n"), "(0,0)>(2,1) ");
+}
+
+TEST_F(ScenarioOfTheFieldTest, ReadsNamesWithBlanksAndOtherLetters) {
+  EXPECT_EQ(waysOf(version_line + "0 my own town.map 3 2 0 0 2 1 3\n"), "(0,0)>(2,1) ");
+  EXPECT_EQ(waysOf(version_line + "0\tmy town.map\t3\t2\t0\t0\t2\t1\t3\n"), "(0,0)>(2,1) ");
+  EXPECT_EQ(waysOf(version_line + "0\tK\xc3\xb6ln.map\t3\t2\t0\t0\t2\t1\t3\n"), "(0,0)>(2,1) ");
+}
+
+TEST_F(ScenarioOfTheFieldTest, ReadsEveryLineEndAndAByteOrderMark) {
+  EXPECT_EQ(waysOf("\xef\xbb\xbfversion 1\r\n0\ta.map\t3\t2\t0\t0\t2\t1\t3\r\n"), "(0,0)>(2,1) ");
+  EXPECT_EQ(waysOf("version 1\r0\ta.map\t3\t2\t0\t0\t2\t1\t3\r"), "(0,0)>(2,1) ");
+}
+
+TEST_F(ScenarioOfTheFieldTest, ReadsRowsWithoutAVersion) {
+  EXPECT_EQ(waysOf(good_row + good_row), "(0,0)>(2,1) (0,0)>(2,1) ");
+  EXPECT_EQ(waysOf("VERSION\t1.0\n" + good_row), "(0,0)>(2,1) ");
+}
+
+TEST_F(ScenarioOfTheFieldTest, ReadsRowsWithoutALength) {
+  EXPECT_EQ(waysOf(version_line + "0\tmy town.map\t3\t2\t0\t0\t2\t1\n"), "(0,0)>(2,1) ");
+  EXPECT_EQ(waysOf(version_line + "0 a.map 3 2 0 0 2 1\n"), "(0,0)>(2,1) ");
+  EXPECT_EQ(waysOf(version_line + "0 a.map 3 2 0 0 2 1 inf\n"), "(0,0)>(2,1) ");
+}
+
+TEST_F(ScenarioOfTheFieldTest, RefusesAMissingColumnThatTwoTabsHide) {
+  EXPECT_EQ(waysOf(version_line + "0\ta.map\t3\t2\t0\t\t2\t1\t3\n").substr(0, 24),
+            "a.scen:2: read 8 columns");
 }
 
 TEST_F(ScenarioTest, NeedsTheSizeOfTheMap) {

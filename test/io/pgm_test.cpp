@@ -90,13 +90,31 @@ TEST_F(PgmTest, NamesTheByteOfBinaryFiles) {
             "a.pgm: byte 20: read the end of the file after 1 bytes of samples, expected "
             "1073741824");
   EXPECT_EQ(errorOfPgm("P5 2 1 255 abc"),
-            "a.pgm: byte 13: read 1 more bytes, expected the end of the file after 2 bytes of "
+            "a.pgm: byte 13: read 1 more byte, expected the end of the file after 2 bytes of "
             "samples");
-  EXPECT_EQ(errorOfPgm("P5\n2 1\n255\r\nab"),
-            "a.pgm: byte 13: read 1 more bytes, expected the end of the file after 2 bytes of "
-            "samples");
+  EXPECT_EQ(
+      errorOfPgm("P5\n2 1\n255\r\nab"),
+      "a.pgm: byte 11: read CR LF and 2 bytes, expected one white space and 2 bytes of samples");
   EXPECT_EQ(errorOfPgm("P5 2 1 9 \x01\x0a"),
             "a.pgm: byte 10: read sample 10, expected at most the maximum value 9");
+}
+
+TEST_F(PgmTest, ReadsALastNewLine) {
+  EXPECT_EQ(valuesOf("P5 2 1 255 ab\n"), (Values{97, 98}));
+  EXPECT_EQ(valuesOf("P5 2 1 255 ab\r\n"), (Values{97, 98}));
+  EXPECT_EQ(valuesOf("P5 2 1 255 a\n\n"), (Values{97, 10}));
+  EXPECT_EQ(valuesOf(std::string("P5 1 1 65535 \x01\x01\n", 16)), (Values{1}));
+}
+
+TEST_F(PgmTest, RefusesASecondPicture) {
+  EXPECT_EQ(errorOfPgm("P5 2 1 255 ab\nP5 2 1 255 ab"),
+            "a.pgm: byte 14: read 14 more bytes, expected the end of the file after 2 bytes of "
+            "samples");
+}
+
+TEST_F(PgmTest, TakesCarriageReturnsInTheHeader) {
+  EXPECT_EQ(valuesOf("P5\r\n2 1\r\n255\nab"), (Values{97, 98}));
+  EXPECT_EQ(valuesOf("P2\r\n# one\r\n2 1\r\n255\r\n0 255\r\n"), (Values{0, 255}));
 }
 
 TEST_F(PgmTest, NamesAnotherKindOfFile) {

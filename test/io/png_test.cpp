@@ -106,6 +106,51 @@ TEST(PngTest, TakesImageDataInPiecesAndWithFilters) {
   EXPECT_EQ(parsePng("a.png", bytes).brightness, (Values{5, 10, 6, 11}));
 }
 
+TEST(PngTest, TakesANewLineBehindTheEnd) {
+  const PngBuilder png = builder(2, 1, 8, 0, raw("\0\x01\x02"));
+  EXPECT_EQ(parsePng("a.png", png.bytes() + "\n").brightness, (Values{1, 2}));
+}
+
+// The rows of an interlaced picture of up to a byte a sample, made of those of a plain one.
+std::string interlacedRows(const std::vector<std::vector<int>>& samples, int bit_depth) {
+  constexpr std::size_t kPasses[7][4] = {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4},
+                                         {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}};
+  std::string rows;
+  for (const auto& [first_x, first_y, step_x, step_y] : kPasses) {
+    for (std::size_t y = first_y; y < samples.size(); y += step_y) {
+      if (first_x >= samples[y].size()) continue;
+      rows += '\0';
+      int bits = 0;
+      for (std::size_t x = first_x; x < samples[y].size(); x += step_x) {
+        if (bits == 0) rows += '\0';
+        rows.back() = static_cast<char>(rows.back() | samples[y][x] << (8 - bit_depth - bits));
+        bits = (bits + bit_depth) % 8;
+      }
+    }
+  }
+  return rows;
+}
+
+TEST(PngTest, ReadsInterlacedPicturesOfEverySizeAndDepth) {
+  for (const int bit_depth : {1, 2, 4, 8}) {
+    for (std::uint32_t side = 1; side <= 17; ++side) {
+      const std::uint32_t height = side % 5 + 1;
+      const int most = (1 << bit_depth) - 1;
+      std::vector<std::vector<int>> samples(height, std::vector<int>(side));
+      Values expected;
+      for (std::uint32_t i = 0; i < side * height; ++i) {
+        const int sample = static_cast<int>(i * i + 3 * i) % (most + 1);
+        samples[i / side][i % side] = sample;
+        expected.push_back(static_cast<float>(sample) * 255 / static_cast<float>(most));
+      }
+      PngBuilder png = builder(side, height, bit_depth, 0, interlacedRows(samples, bit_depth));
+      png.interlace = 1;
+      SCOPED_TRACE(std::to_string(side) + " pixels of " + std::to_string(bit_depth) + " bits");
+      expectNear(read(png).brightness, expected);
+    }
+  }
+}
+
 class PngErrorTest : public test::FileTest {
  protected:
   std::string errorOfPng(const std::string& bytes) const {
@@ -155,9 +200,8 @@ TEST_F(PngErrorTest, NamesABadHeader) {
   EXPECT_EQ(errorOfPng(png.bytes()),
             "a.png: byte 24: read colour type 0 of 3 bits, expected a combination that PNG has");
   png = good_;
-  png.interlace = 1;
-  EXPECT_EQ(errorOfPng(png.bytes()),
-            "a.png: byte 28: read an interlaced picture, expected one without interlacing");
+  png.interlace = 2;
+  EXPECT_EQ(errorOfPng(png.bytes()), "a.png: byte 28: read interlace method 2, expected 0 or 1");
   EXPECT_EQ(errorOfPng(PngBuilder::signature() + pngChunk("IEND", "")),
             "a.png: byte 12: read chunk 'IEND', expected 'IHDR'");
   EXPECT_EQ(errorOfPng(PngBuilder::signature() + pngChunk("IHDR", "abc")),
@@ -170,9 +214,9 @@ TEST_F(PngErrorTest, NamesChunksThatAreMissingOrStrange) {
             "a.png: byte 45: read no IDAT chunk, expected image data");
   EXPECT_EQ(errorOfPng(head + pngChunk("ABCD", "")),
             "a.png: byte 37: read chunk 'ABCD', expected one of PNG's own");
-  EXPECT_EQ(errorOfPng(good_.bytes() + "more"),
+  EXPECT_EQ(errorOfPng(good_.bytes() + good_.bytes()),
             "a.png: byte " + std::to_string(good_.bytes().size()) +
-                ": read 4 more bytes, expected the end of the file after IEND");
+                ": read a second PNG picture, expected the end of the file");
   EXPECT_EQ(errorOfPng(builder(1, 1, 8, 3, raw("\0\0")).bytes()),
             "a.png: byte 67: read no PLTE chunk, expected the palette");
 }
@@ -209,6 +253,14 @@ TEST_F(PngErrorTest, NamesBadImageData) {
             "a.png: byte 33: read too much image data, expected 6 bytes when decompressed");
   EXPECT_EQ(errorOfPng(builder(2, 2, 8, 0, raw("\0\x01\x02\5\x03\x04")).bytes()),
             "a.png: byte 33: read filter 5 in the image data, expected 0 to 4");
+  PngBuilder interlaced = builder(3, 1, 8, 0, raw("\0\x01\0\x02\7\x03"));
+  interlaced.interlace = 1;
+  EXPECT_EQ(errorOfPng(interlaced.bytes()),
+            "a.png: byte 33: read filter 7 in the image data, expected 0 to 4");
+  interlaced.rows = raw("\0\x01\x02\x03");
+  EXPECT_EQ(errorOfPng(interlaced.bytes()),
+            "a.png: byte 33: read image data that ends after 4 bytes when decompressed, expected "
+            "6");
   const std::string head = PngBuilder::signature() + good_.header();
   EXPECT_EQ(errorOfPng(head + pngChunk("IDAT", "no zlib data") + pngChunk("IEND", "")),
             "a.png: byte 33: read image data that cannot be decompressed, expected zlib data");

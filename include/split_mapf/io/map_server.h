@@ -26,12 +26,13 @@ struct OccupancyMap {
 };
 
 /// Reads a map_server YAML file and the picture it names (relative to the YAML): PGM (P2 or P5, 8
-/// or 16 bit) or PNG (grey, grey-alpha, rgb, rgba, palette; 1 to 16 bit; not interlaced). The
+/// or 16 bit) or PNG (grey, grey-alpha, rgb, rgba, palette; 1 to 16 bit; interlaced too). The
 /// picture's own first bytes tell which.
 ///
-/// Keys image, resolution, origin, negate, occupied_thresh and free_thresh are required, mode
-/// (trinary, scale, raw) is optional; other keys are left alone. Let s be a pixel's brightness
-/// 0 .. 255, the mean of its colour channels, or 255 minus it with negate, and p = (255 - s) / 255:
+/// Keys image, resolution, origin, negate (0, 1, or a truth value of YAML), occupied_thresh and
+/// free_thresh are required, mode (trinary, scale, raw, in any case) is optional; other keys are
+/// left alone. Let s be a pixel's brightness 0 .. 255, the mean of its colour channels, or 255
+/// minus it with negate, and p = (255 - s) / 255:
 ///   trinary  100 where p > occupied_thresh, 0 where p < free_thresh, -1 between. An alpha channel
 ///            is averaged in like a colour, as map_server does.
 ///   scale    the same, but 1 .. 99 between; a pixel that is at all transparent is -1.

@@ -17,16 +17,20 @@ struct Scenario {
   std::vector<Cell> goals;
 };
 
-/// Reads a MovingAI `.map`: `.`, `G` and `S` are free, `@`, `O`, `T` and `W` are blocked. Lines may
-/// end in CR LF.
+/// Reads a MovingAI `.map`: `.`, `G`, `S` and `E` (where orders come from, in warehouses) are free,
+/// `@`, `O`, `T` and `W` are blocked. As other readers do, it takes `height` and `width` in any
+/// order and case, does without `type octile`, and passes over empty lines, blanks at the end of a
+/// line, a byte order mark, and CR LF.
 /// @throws InputError "path:line: what was read, what was expected" for anything malformed or
-/// truncated. Cost: O(cells). Thread-safe.
+/// truncated, and for a second map in the file. Cost: O(cells). Thread-safe.
 std::shared_ptr<const Grid> readMovingAiMap(const std::string& path);
 
 /// Reads the first `agents` rows of a MovingAI `.scen`, or all of them. Width and height in each
 /// row must be the grid's; the name of the map is not compared, since maps get renamed. The length
-/// column must be a number and is not used: it counts diagonal moves. Two robots that share a start
-/// or a goal pass here and are refused by Instance.
+/// column is a number or missing and is not used: it counts diagonal moves. Columns are parted by
+/// tabs, several of them too, or by blanks; a name may hold blanks. The line `version 1` may be
+/// missing, and empty lines are passed over. Two robots that share a start or a goal pass here and
+/// are refused by Instance.
 /// @throws InputError "path:line: ..." for a malformed row, another grid size, a start or goal that
 /// is blocked or outside the grid (naming robot and cell), fewer rows than `agents`, no row at all.
 Scenario readMovingAiScenario(const std::string& path, const Grid& grid,
