@@ -1,29 +1,33 @@
 #!/usr/bin/env python3
 """Sends a planning goal to the planner node and shows how it goes.
 
-The robots come from a MovingAI .scen, the map from a MovingAI .map or, without --map, from the
-topic `map` (for instance of: roslaunch split_mapf planner.launch map_file:=FILE). Ctrl-C cancels
-the goal.
+The robots come from a MovingAI .scen, the map from a MovingAI .map, a map_server .yaml or, without
+--map, from the topic `map` (for instance of: roslaunch split_mapf planner.launch map_file:=FILE).
+Files are read by `split_mapf convert`, as by all commands. Ctrl-C cancels the goal.
 
 exit codes: 0 a valid plan, 1 bad usage or bad input, 2 no plan exists, 3 time limit, 4 cancelled,
 5 internal error or no answer from the node, 6 no plan found, 7 memory limit
 """
 
 import argparse
+import array
+import base64
 import json
+import math
+import os
+import subprocess
 import sys
 import threading
 import time
 
 import actionlib
+import roslib.packages
 import rospy
 from actionlib_msgs.msg import GoalStatus
 from nav_msgs.msg import OccupancyGrid
 
 from split_mapf.msg import PlanOutcome, PlanPathsAction, PlanPathsGoal, RobotTask
 
-FREE_CELLS = ".GS"
-BLOCKED_CELLS = "@OTW"
 OUTCOME_NAMES = {
     value: name
     for name, value in vars(PlanOutcome).items()
@@ -45,87 +49,67 @@ STATUS_WORDS = {0: "solved", 2: "unsolvable", 3: "timeout", 4: "cancelled", 6: "
 
 
 class InputError(Exception):
-    """A file that does not say what it should."""
+    """A file or an option that does not say what it should."""
 
 
 class NoAnswer(Exception):
-    """The planner node, or the map, is not there."""
+    """The planner node, the map, or the command is not there."""
 
 
-def read_lines(path):
-    try:
-        with open(path, encoding="ascii") as file:
-            return file.read().splitlines()
-    except UnicodeDecodeError as error:
-        raise InputError("%s: byte %d: read 0x%02x, expected text" %
-                         (path, error.start, error.object[error.start])) from error
-    except OSError as error:
-        raise InputError("%s: %s" % (path, error.strerror)) from error
+def find_command():
+    """The command: catkin puts it beside this program."""
+    beside = os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), "split_mapf")
+    places = [beside] if os.path.isfile(beside) else []
+    places += roslib.packages.find_node("split_mapf", "split_mapf")
+    if not places:
+        raise NoAnswer("the command split_mapf, which reads maps and scenarios, is neither at %s "
+                       "nor elsewhere in the package; build or install it" % beside)
+    return places[0]
 
 
-def read_map(path, resolution):
-    """Reads a MovingAI map as an OccupancyGrid in frame `map`, lower left corner at the origin."""
-    if not path.endswith(".map"):
-        raise InputError("%s: expected a MovingAI .map; for another map start the planner with "
-                         "map_file and leave --map out" % path)
-    lines = read_lines(path)
-    header = {}
-    for number, key in ((2, "height"), (3, "width")):
-        words = lines[number - 1].split() if len(lines) >= number else []
-        if len(words) != 2 or words[0] != key or not words[1].isdigit() or int(words[1]) == 0:
-            raise InputError("%s:%d: read '%s', expected '%s N'" %
-                             (path, number, " ".join(words), key))
-        header[key] = int(words[1])
-    if lines[3:4] != ["map"]:
-        raise InputError("%s:4: expected 'map'" % path)
-    rows = lines[4:]
-    if len(rows) != header["height"]:
-        raise InputError("%s: read %d rows, expected %d" % (path, len(rows), header["height"]))
+def convert(*options):
+    """What the command reads from the files that the options name."""
+    call = [find_command(), "convert"]
+    for name, value in options:
+        if value:
+            call += ["--" + name, str(value)]
+    done = subprocess.run(call, stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
+    if done.returncode != 0:
+        message = done.stderr.decode("utf-8", "replace").strip().replace("split_mapf: ", "", 1)
+        error = InputError if done.returncode == 1 else NoAnswer
+        raise error(message or "%s ended with code %d" % (call[0], done.returncode))
+    return json.loads(done.stdout.decode("utf-8"))
+
+
+def grid_of(read):
+    """A map as an OccupancyGrid in frame `map`; its last row is the message's first."""
     grid = OccupancyGrid()
     grid.header.frame_id = "map"
-    grid.info.resolution = resolution
-    grid.info.width, grid.info.height = header["width"], header["height"]
-    grid.info.origin.orientation.w = 1.0
-    grid.data = occupancy_of(path, rows, header["width"])
+    width, height = grid.info.width, grid.info.height = read["width"], read["height"]
+    grid.info.resolution = read["resolution"]
+    x, y, yaw = read["origin"]
+    grid.info.origin.position.x, grid.info.origin.position.y = x, y
+    grid.info.origin.orientation.z = math.sin(yaw / 2)
+    grid.info.origin.orientation.w = math.cos(yaw / 2)
+    cells = array.array("b", base64.b64decode(read["occupancy"]))
+    grid.data = array.array("b")
+    for row in reversed(range(height)):
+        grid.data += cells[row * width:(row + 1) * width]
     return grid
 
 
-def occupancy_of(path, rows, width):
-    """0 and 100 from the letters of a map; its last row is an OccupancyGrid's first."""
-    for index, row in enumerate(rows):
-        if len(row) != width:
-            raise InputError("%s:%d: read %d cells, expected %d" %
-                             (path, index + 5, len(row), width))
-        strange = set(row) - set(FREE_CELLS + BLOCKED_CELLS)
-        if strange:
-            raise InputError("%s:%d: read '%s', expected one of %s" %
-                             (path, index + 5, min(strange), FREE_CELLS + BLOCKED_CELLS))
-    return bytes(0 if cell in FREE_CELLS else 100 for row in reversed(rows) for cell in row)
-
-
-def read_scenario(path, grid, agents):
-    """The first `agents` rows (0: all) of a scenario, as (start x, start y, goal x, goal y)."""
-    lines = read_lines(path)
-    if not lines or not lines[0].startswith("version"):
-        raise InputError("%s:1: expected 'version 1'" % path)
-    rows = []
-    for number, line in enumerate(lines[1:], start=2):
-        if agents and len(rows) == agents:
-            break
-        words = line.split()
-        if not words:
-            continue
-        if len(words) != 9 or not all(word.isdigit() for word in words[2:8]):
-            raise InputError("%s:%d: read '%s', expected 9 columns: bucket, map, width, height, "
-                             "start x, start y, goal x, goal y, length" % (path, number, line))
-        width, height, *cells = (int(word) for word in words[2:8])
-        if (width, height) != (grid.info.width, grid.info.height):
-            raise InputError("%s:%d: made for a map of %dx%d cells, expected %dx%d" %
-                             (path, number, width, height, grid.info.width, grid.info.height))
-        rows.append(cells)
-    if len(rows) < max(agents, 1):
-        raise InputError("%s: read %d robots, expected %d" % (path, len(rows), max(agents, 1)))
-    return rows
+def read_instance(args):
+    """The map, and the ways of the robots as (start x, start y, goal x, goal y)."""
+    scenario = (("scen", args.scen), ("agents", args.agents))
+    if args.map:
+        read = convert(("map", args.map), ("resolution", args.resolution), *scenario)
+        grid = grid_of(read)
+    else:
+        grid = wait_for_map(args.wait)
+        if not grid.data:
+            raise InputError("the map on the topic %s has no cells" % rospy.resolve_name("map"))
+        read = convert(("size", "%dx%d" % (grid.info.width, grid.info.height)), *scenario)
+    return grid, [start + goal for start, goal in zip(read["starts"], read["goals"])]
 
 
 def wait_for_map(patience):
@@ -301,12 +285,13 @@ def at_least(least, kind):
 def parse_arguments(arguments):
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--map", help="MovingAI .map (default: the map on the topic `map`)")
+    parser.add_argument("--map", help="MovingAI .map, or map_server .yaml (default: the map on the "
+                                      "topic `map`)")
     parser.add_argument("--scen", required=True, help="MovingAI .scen")
     parser.add_argument("--agents", type=at_least(0, int), default=0, metavar="N",
                         help="take the first N rows of the scenario; 0: all (0)")
-    parser.add_argument("--resolution", type=at_least(1e-6, float), default=1.0, metavar="M",
-                        help="side of a cell of --map in metres (1)")
+    parser.add_argument("--resolution", type=at_least(1e-6, float), metavar="M",
+                        help="side of a cell of a MovingAI .map in metres (1)")
     options = parser.add_argument_group("planning options (default: the node's parameters)")
     options.add_argument("--solver")
     options.add_argument("--split")
@@ -328,7 +313,10 @@ def parse_arguments(arguments):
     parser.add_argument("--output", metavar="FILE", help="write the plan as JSON")
     parser.add_argument("--quiet", action="store_true", help="no progress")
     try:
-        return parser.parse_args(arguments)
+        args = parser.parse_args(arguments)
+        if args.resolution and not args.map:
+            parser.error("--resolution needs --map")
+        return args
     except SystemExit as end:
         # argparse says 2 for bad usage, which stands for "unsolvable" here.
         raise SystemExit(1 if end.code else 0) from end
@@ -336,8 +324,7 @@ def parse_arguments(arguments):
 
 def run(args):
     client = find_server(args.server, args.wait)
-    grid = read_map(args.map, args.resolution) if args.map else wait_for_map(args.wait)
-    goal = make_goal(args, grid, read_scenario(args.scen, grid, args.agents))
+    goal = make_goal(args, *read_instance(args))
     begin = time.monotonic()
     state, result = run_goal(client, goal, ProgressLine(args.quiet))
     if result is None:

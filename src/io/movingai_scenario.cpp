@@ -14,12 +14,13 @@ std::string sizeOf(std::int64_t width, std::int64_t height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-std::string sizeOf(const Grid& grid) { return sizeOf(grid.width(), grid.height()); }
+std::string sizeOf(MapSize size) { return sizeOf(size.width, size.height); }
 
-// One file being read: where it stands, and the grid that its cells must fit.
+// One file being read: where it stands, and the map that its cells must fit.
 class ScenarioReader {
  public:
-  ScenarioReader(const std::string& path, const Grid& grid) : lines_(path), grid_(grid) {}
+  ScenarioReader(const std::string& path, MapSize size, const Grid* grid)
+      : lines_(path), size_(size), grid_(grid) {}
 
   Scenario read(std::optional<std::uint32_t> agents) {
     Scenario scenario;
@@ -61,8 +62,8 @@ class ScenarioReader {
     integerIn(row->bucket, "bucket");
     const std::int64_t width = integerIn(row->width, "width");
     const std::int64_t height = integerIn(row->height, "height");
-    if (width != grid_.width() || height != grid_.height()) {
-      lines_.fail("a map of " + sizeOf(width, height), "the map's own size, " + sizeOf(grid_));
+    if (width != size_.width || height != size_.height) {
+      lines_.fail("a map of " + sizeOf(width, height), "the map's own size, " + sizeOf(size_));
     }
     requireLength(row->length);
     const std::string robot = "robot " + std::to_string(scenario.starts.size()) + ": ";
@@ -92,33 +93,47 @@ class ScenarioReader {
     const std::int64_t x = integerIn(x_field, what + "x");
     const std::int64_t y = integerIn(y_field, what + "y");
     const std::string named = what + "(" + std::to_string(x) + "," + std::to_string(y) + ")";
-    if (x < 0 || y < 0 || x >= grid_.width() || y >= grid_.height()) {
-      lines_.fail(named + " is outside the map, expected a free cell of the " + sizeOf(grid_) +
+    if (x < 0 || y < 0 || x >= size_.width || y >= size_.height) {
+      lines_.fail(named + " is outside the map, expected a free cell of the " + sizeOf(size_) +
                   " map");
     }
     const Cell cell{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)};
-    if (!grid_.isFree(cell)) lines_.fail(named + " is blocked, expected a free cell");
+    if (grid_ != nullptr && !grid_->isFree(cell))
+      lines_.fail(named + " is blocked, expected a free cell");
     return cell;
   }
 
   LineReader lines_;
-  const Grid& grid_;
+  MapSize size_;
+  const Grid* grid_;  // null: which cells are free is not known
 };
+
+Scenario readScenario(const std::string& path, MapSize size, const Grid* grid,
+                      std::optional<std::uint32_t> agents) {
+  if (agents && *agents == 0) {
+    throw InputError("0 robots asked of " + path + ", expected 1 or more");
+  }
+  return ScenarioReader(path, size, grid).read(agents);
+}
 
 void requireFree(const Grid& grid, std::size_t robot, const std::string& what, Cell cell) {
   if (grid.isFree(cell)) return;
   throw InputError("robot " + std::to_string(robot) + ": " + what + " " + toString(cell) +
                    (grid.contains(cell) ? " is blocked" : " is outside the map") +
-                   ", expected a free cell of the " + sizeOf(grid) + " grid");
+                   ", expected a free cell of the " + sizeOf({grid.width(), grid.height()}) +
+                   " grid");
 }
 
 }  // namespace
 
 Scenario readMovingAiScenario(const std::string& path, const Grid& grid,
                               std::optional<std::uint32_t> agents) {
-  if (agents && *agents == 0)
-    throw InputError("0 robots asked of " + path + ", expected 1 or more");
-  return ScenarioReader(path, grid).read(agents);
+  return readScenario(path, {grid.width(), grid.height()}, &grid, agents);
+}
+
+Scenario readMovingAiScenario(const std::string& path, MapSize size,
+                              std::optional<std::uint32_t> agents) {
+  return readScenario(path, size, nullptr, agents);
 }
 
 void writeMovingAiScenario(const std::string& path, const std::string& map_name, const Grid& grid,

@@ -1,45 +1,15 @@
 #include "split_mapf/ros/map_source.h"
 
-#include <algorithm>
-#include <cctype>
 #include <utility>
 
 #include "split_mapf/io/map_file.h"
-#include "split_mapf/io/map_server.h"
 #include "split_mapf/ros/orientation.h"
 #include "split_mapf/ros/outcome.h"
 
 namespace split_mapf {
-namespace {
-
-bool isYaml(std::string path) {
-  std::transform(path.begin(), path.end(), path.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const auto ends_with = [&path](const std::string& end) {
-    return path.size() >= end.size() &&
-           path.compare(path.size() - end.size(), end.size(), end) == 0;
-  };
-  return ends_with(".yaml") || ends_with(".yml");
-}
-
-OccupancyMap readOccupancy(const std::string& path) {
-  if (isYaml(path)) return readMapServerMap(path);
-  OccupancyMap map;
-  map.grid = readMap(path);
-  map.resolution_m = 1;
-  map.occupancy.assign(std::size_t{map.grid->width()} * map.grid->height(), 100);
-  for (Vertex v = 0; v < map.grid->size(); ++v) {
-    const Cell cell = map.grid->cellOf(v);
-    map.occupancy[static_cast<std::size_t>(cell.y) * map.grid->width() +
-                  static_cast<std::size_t>(cell.x)] = 0;
-  }
-  return map;
-}
-
-}  // namespace
 
 nav_msgs::OccupancyGrid readMapMessage(const std::string& path) {
-  const OccupancyMap map = readOccupancy(path);
+  const OccupancyMap map = readOccupancyMap(path);
   nav_msgs::OccupancyGrid message;
   message.header.frame_id = "map";
   message.header.stamp = ros::Time::now();

@@ -24,6 +24,7 @@ struct Command {
 ExitCode runPlan(const Call& call);
 ExitCode runValidate(const Call& call);
 ExitCode runCheck(const Call& call);
+ExitCode runConvert(const Call& call);
 ExitCode runGenerate(const Call& call);
 ExitCode runRender(const Call& call);
 ExitCode runBench(const Call& call);

@@ -16,6 +16,7 @@ const std::vector<Command>& commands() {
       {"plan", "plan collision-free paths", runPlan},
       {"validate", "check a plan and list every violation", runValidate},
       {"check", "decide whether a plan exists", runCheck},
+      {"convert", "write a map and a scenario as JSON", runConvert},
       {"generate", "generate a map and a scenario", runGenerate},
       {"render", "draw a plan as a PNG picture", runRender},
       {"bench", "plan many combinations and write a CSV table", runBench},

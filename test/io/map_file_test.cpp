@@ -29,5 +29,30 @@ TEST_F(MapFileTest, RefusesOtherExtensions) {
             ".yaml");
 }
 
+TEST_F(MapFileTest, GivesEveryMapAPlaceAndValues) {
+  const std::string map = file("c.map", "height 2\nwidth 3\nmap\n..@\nE@W\n");
+  OccupancyMap read = readOccupancyMap(map);
+  EXPECT_EQ(read.occupancy, (std::vector<std::int8_t>{0, 0, 100, 0, 100, 100}));
+  EXPECT_EQ(read.grid->size(), 3U);
+  EXPECT_DOUBLE_EQ(read.resolution_m, 1);
+  EXPECT_DOUBLE_EQ(readOccupancyMap(map, {}, 0.25).resolution_m, 0.25);
+  file("a.pgm", "P2 2 1 255 0 255");
+  const std::string yaml = file("a.YAML",
+                                "image: a.pgm\nresolution: 0.05\norigin: [1, 2, 0.5]\nnegate: 0\n"
+                                "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
+  read = readOccupancyMap(yaml);
+  EXPECT_EQ(read.occupancy, (std::vector<std::int8_t>{100, 0}));
+  EXPECT_DOUBLE_EQ(read.resolution_m, 0.05);
+  EXPECT_DOUBLE_EQ(read.origin.yaw_rad, 0.5);
+}
+
+TEST_F(MapFileTest, RefusesAResolutionThatIsNoneOrNotAsked) {
+  const std::string map = file("c.map", "height 1\nwidth 1\nmap\n.\n");
+  EXPECT_EQ(errorOf([&] { readOccupancyMap(map, {}, 0); }),
+            "the resolution is 0.000000, expected a finite number above 0 [m]");
+  EXPECT_EQ(errorOf([&] { readOccupancyMap(pathOf("a.yaml"), {}, 1); }),
+            "a resolution was given for a.yaml, expected none: the file says its own");
+}
+
 }  // namespace
 }  // namespace split_mapf

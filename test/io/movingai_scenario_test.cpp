@@ -153,6 +153,15 @@ TEST_F(ScenarioTest, NeedsTheSizeOfTheMap) {
             "a.scen:3: read a map of 3x3, expected the map's own size, 3x2");
 }
 
+TEST_F(ScenarioTest, NeedsNoMoreOfAMapThanItsSize) {
+  const std::string path = file("a.scen", version_line + "0\ta.map\t3\t2\t2\t0\t0\t1\t3\n");
+  EXPECT_EQ(readMovingAiScenario(path, MapSize{3, 2}).starts, (std::vector<Cell>{{2, 0}}));
+  EXPECT_EQ(errorOf([&] {
+              readMovingAiScenario(path, MapSize{2, 3});
+            }),
+            "a.scen:2: read a map of 3x2, expected the map's own size, 2x3");
+}
+
 TEST_F(ScenarioTest, NamesRobotAndCellAtFault) {
   EXPECT_EQ(errorOfScenario(version_line + good_row + "0\ta.map\t3\t2\t2\t0\t2\t1\t3\n"),
             "a.scen:3: robot 1: start (2,0) is blocked, expected a free cell");

@@ -1,16 +1,44 @@
 #!/usr/bin/env python3
 """scripts/plan_client.py against the planner node, as a user starts it."""
 
+import importlib.util
 import json
 import os
 import shutil
 import signal
+import subprocess
+import sys
 import tempfile
 import unittest
 
+import roslib.packages
 import rosunit
 
-from ros_processes import start_program, write_hard_instance, write_instance
+from ros_processes import Program, start_program, write_hard_instance, write_instance
+
+HERE = os.path.dirname(os.path.realpath(__file__))
+sys.path.insert(0, os.path.join(HERE, "..", "tool"))
+
+from field_files import write_files  # noqa: E402 (its folder is known only now)
+
+SYMBOLS = {0: ".", 100: "@", -1: "?"}
+
+
+def load_client():
+    """The client as a module, beside its command as where it was started."""
+    sys.argv[0] = roslib.packages.find_node("split_mapf", "plan_client.py")[0]
+    source = os.path.join(HERE, "..", "..", "scripts", "plan_client.py")
+    spec = importlib.util.spec_from_file_location("plan_client", source)
+    client = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(client)
+    return client
+
+
+def rows_of(grid):
+    """From the top; the first row of the message is the lowest."""
+    width, height = grid.info.width, grid.info.height
+    text = "".join(SYMBOLS[value] for value in grid.data)
+    return [text[row * width:(row + 1) * width] for row in reversed(range(height))]
 
 
 class PlanClient(unittest.TestCase):
@@ -101,13 +129,77 @@ class PlanClient(unittest.TestCase):
         self.edit(self.map, "x", ".")
         code, output = self.run_client("--map", self.map, "--scen", self.scen, "--agents", "5")
         self.assertEqual(code, 1)
-        self.assertIn("read 4 robots, expected 5", output)
+        self.assertIn("test.scen:6: read the end of the file after 4 robots, expected 5", output)
         self.edit(self.scen, "\t12\t", "\t13\t")
         code, output = self.run_client("--map", self.map, "--scen", self.scen)
         self.assertEqual(code, 1)
-        self.assertIn("test.scen:2: made for a map of 24x13", output)
+        self.assertIn("test.scen:2: read a map of 24x13", output)
         code, output = self.run_client("--colour", "red")
         self.assertEqual(code, 1)
+
+    def test_reads_every_file_as_the_command_does(self):
+        client = load_client()
+        command = roslib.packages.find_node("split_mapf", "split_mapf")[0]
+        for map_name, scenario, rows, ways, _ in write_files(self.directory):
+            files = ["--map", os.path.join(self.directory, map_name), "--scen",
+                     os.path.join(self.directory, scenario or "none.scen")]
+            if not scenario:
+                # The client always has robots: one that stays in a free cell.
+                self.write_one_robot(files[3], rows or ["."])
+            answer = subprocess.run([command, "check"] + files, stdout=subprocess.PIPE,
+                                    stderr=subprocess.PIPE, check=False)
+            try:
+                grid, read_ways = client.read_instance(client.parse_arguments(files))
+            except client.InputError as error:
+                self.assertEqual(answer.returncode, 1, (map_name, scenario, answer))
+                self.assertEqual("split_mapf: %s\n" % error, answer.stderr.decode())
+                continue
+            self.assertIn(answer.returncode, (0, 2), (map_name, scenario, answer))
+            self.assertEqual(rows_of(grid), rows, (map_name, scenario))
+            if ways:
+                self.assertEqual(read_ways, ways, (map_name, scenario))
+
+    @staticmethod
+    def write_one_robot(path, rows):
+        x, y = next((row.index("."), y) for y, row in enumerate(rows) if "." in row)
+        with open(path, "w", encoding="ascii") as file:
+            file.write("version 1\n0\tm.map\t%d\t%d\t%d\t%d\t%d\t%d\t0\n" %
+                       (len(rows[0]), len(rows), x, y, x, y))
+
+    def test_plans_on_a_map_server_map_at_its_place(self):
+        write_files(self.directory)
+        code, output = self.run_client(
+            "--map", os.path.join(self.directory, "plain.yaml"),
+            "--scen", os.path.join(self.directory, "several_tabs.scen"), "--output", self.plan)
+        self.assertEqual(code, 0, output)
+        with open(self.plan, encoding="ascii") as file:
+            paths = json.load(file)["paths"]
+        self.assertEqual([(path[0], path[-1]) for path in paths],
+                         [([0, 0], [3, 2]), ([3, 0], [0, 2])])
+
+    def test_reads_the_scenario_for_the_map_on_the_topic(self):
+        message = "{header: {frame_id: map}, info: {resolution: 0.5, width: 24, height: 12, " \
+                  "origin: {orientation: {w: 1.0}}}, data: %s}" % ([0] * 24 * 12)
+        publisher = Program("rostopic", "pub", "-l", "map", "nav_msgs/OccupancyGrid", message)
+        self.addCleanup(publisher.end)
+        self.assertTrue(publisher.wait_for_output("latching"), publisher.output())
+        code, output = self.run_client("--scen", self.scen, "--output", self.plan)
+        self.assertEqual(code, 0, output)
+        with open(self.plan, encoding="ascii") as file:
+            self.assertEqual(json.load(file)["paths"][0][0], [1, 1])
+        self.edit(self.scen, "\t12\t", "\t13\t")
+        code, output = self.run_client("--scen", self.scen)
+        self.assertEqual(code, 1, output)
+        self.assertIn("test.scen:2: read a map of 24x13", output)
+
+    def test_refuses_a_resolution_that_would_have_no_effect(self):
+        code, output = self.run_client("--scen", self.scen, "--resolution", "0.5")
+        self.assertEqual(code, 1, output)
+        write_files(self.directory)
+        code, output = self.run_client("--map", os.path.join(self.directory, "plain.yaml"),
+                                       "--scen", self.scen, "--resolution", "0.5")
+        self.assertEqual(code, 1, output)
+        self.assertIn("plain.yaml", output)
 
     def test_cancels_on_ctrl_c(self):
         map_path, scen_path = write_hard_instance(self.directory)

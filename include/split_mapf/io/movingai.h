@@ -36,6 +36,16 @@ std::shared_ptr<const Grid> readMovingAiMap(const std::string& path);
 Scenario readMovingAiScenario(const std::string& path, const Grid& grid,
                               std::optional<std::uint32_t> agents = std::nullopt);
 
+/// Size of a map [cells].
+struct MapSize {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+};
+
+/// The same for a map that is not at hand, but for its size: whether cells are free is not asked.
+Scenario readMovingAiScenario(const std::string& path, MapSize size,
+                              std::optional<std::uint32_t> agents = std::nullopt);
+
 /// Writes a grid as a `.map` of `.` and `@`. @throws InputError when the file cannot be written.
 void writeMovingAiMap(const std::string& path, const Grid& grid);
 

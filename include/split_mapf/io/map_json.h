@@ -1,0 +1,28 @@
+#pragma once
+
+#include <iosfwd>
+#include <optional>
+#include <string>
+
+#include "split_mapf/io/map_server.h"
+#include "split_mapf/io/movingai.h"
+
+namespace split_mapf {
+
+/// Writes a map, and the ways of its robots, in the one form that programs outside this library
+/// need to read, whatever file the map came from. One JSON object:
+///   width, height  [cells]
+///   resolution     side of a cell [m]
+///   origin         [x, y, yaw] of the lower left corner in the map frame [m, m, rad]
+///   occupancy      one byte a cell, row-major from the top, in base64: 0 .. 100 [%], 255 = unknown
+///   starts, goals  [[x, y], ...], y from the top, an entry a robot; null without a scenario
+/// Without a map resolution, origin and occupancy are null.
+/// @param size  the map's. Cost: O(cells + robots).
+void writeMapJson(std::ostream& out, MapSize size, const std::optional<OccupancyMap>& map,
+                  const std::optional<Scenario>& scenario);
+
+/// The same into a file. @throws InputError when it cannot be written.
+void writeMapJson(const std::string& path, MapSize size, const std::optional<OccupancyMap>& map,
+                  const std::optional<Scenario>& scenario);
+
+}  // namespace split_mapf
