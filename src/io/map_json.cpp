@@ -14,13 +14,13 @@ namespace {
 std::string base64Of(const std::vector<std::int8_t>& values) {
   constexpr const char* kDigits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  const auto byteAt = [&values](std::size_t i) {
+  const auto byte_at = [&values](std::size_t i) {
     return i < values.size() ? std::uint32_t{static_cast<std::uint8_t>(values[i])} : 0U;
   };
   std::string text;
   text.reserve((values.size() + 2) / 3 * 4);
   for (std::size_t i = 0; i < values.size(); i += 3) {
-    const std::uint32_t group = byteAt(i) << 16U | byteAt(i + 1) << 8U | byteAt(i + 2);
+    const std::uint32_t group = byte_at(i) << 16U | byte_at(i + 1) << 8U | byte_at(i + 2);
     text += kDigits[group >> 18U];
     text += kDigits[group >> 12U & 63U];
     text += i + 1 < values.size() ? kDigits[group >> 6U & 63U] : '=';

@@ -33,3 +33,21 @@ fi
 grep -qx 'planned 2 robots, makespan [2-9]' "$scratch/output"
 
 "$scratch/install/lib/split_mapf/split_mapf" --version
+
+# The installed client finds the installed command, by which it reads files.
+printf 'height 1\nwidth 2\nmap\nE@\n' > "$scratch/a.map"
+printf '0 a.map 2 1 0 0 0 0 0\n' > "$scratch/a.scen"
+PYTHONPATH=$scratch/install/lib/python3/dist-packages:${ROS_ROOT:+${ROS_ROOT%/share/ros}/lib/python3/dist-packages} \
+  python3 -B - "$scratch" <<'END'
+import runpy
+import sys
+
+scratch = sys.argv[1]
+sys.argv = [scratch + "/install/lib/split_mapf/plan_client.py",
+            "--map", scratch + "/a.map", "--scen", scratch + "/a.scen"]
+client = runpy.run_path(sys.argv[0], run_name="client")
+assert client["find_command"]() == scratch + "/install/lib/split_mapf/split_mapf"
+grid, ways = client["read_instance"](client["parse_arguments"](sys.argv[1:]))
+assert (list(grid.data), ways) == ([0, 100], [[0, 0, 0, 0]]), (grid, ways)
+print("the client has read a map by the command beside it")
+END
