@@ -17,11 +17,14 @@ struct MapPicture {
   std::vector<float> alpha;       ///< opacity 0 .. 255; empty without an alpha channel
 };
 
-/// Reads a PGM picture (P2 or P5, maxval 1 .. 65535, scaled to 0 .. 255). No sample above maxval,
-/// none too few, nothing but white space after the last one.
-/// @param path  for messages; @param bytes  the file. @throws InputError: "path:line" for P2,
-/// "path: byte N" for P5.
-MapPicture parsePgm(const std::string& path, const std::string& bytes);
+/// Whether the bytes begin as a PNM file does.
+bool isPnm(const std::string& bytes);
+
+/// Reads a PNM picture: PBM (P1, P4), PGM (P2, P5) or PPM (P3, P6), maxval 1 .. 65535, scaled to
+/// 0 .. 255. No sample above maxval, none too few, nothing but white space after the last one.
+/// @param path  for messages; @param bytes  the file. @throws InputError: "path:line" for P1 to P3,
+/// "path: byte N" for P4 to P6.
+MapPicture parsePnm(const std::string& path, const std::string& bytes);
 
 /// Reads a PNG picture of any colour type, 1 to 16 bit, interlaced or not.
 /// @param path  for messages; @param bytes  the file. @throws InputError: "path: byte N".

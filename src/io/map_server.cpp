@@ -17,11 +17,10 @@ constexpr std::int8_t kOccupied = 100;
 MapPicture readPicture(const std::string& path) {
   const std::string bytes = readFile(path);
   if (isPng(bytes)) return parsePng(path, bytes);
-  const std::string magic = bytes.substr(0, 2);
-  if (magic == "P2" || magic == "P5") return parsePgm(path, bytes);
+  if (isPnm(bytes)) return parsePnm(path, bytes);
   failAtByte(path, 0,
              "read " + (bytes.empty() ? "an empty file" : quoted(bytes.substr(0, 8))) +
-                 ", expected a PGM picture (P2 or P5) or a PNG picture");
+                 ", expected a PNG picture or a PGM, PBM or PPM picture (P1 to P6)");
 }
 
 // The brightness that map_server goes by. It averages alpha in like a colour in trinary mode.

@@ -153,10 +153,11 @@ TEST_F(MapServerTest, NamesAPictureOfAnotherKind) {
   file("a.bmp", "BM123456789");
   file("empty.pgm", "");
   EXPECT_EQ(errorOf([&] { readMapServerMap(file("a.yaml", "image: a.bmp\n" + yaml_keys)); }),
-            "a.bmp: byte 0: read 'BM123456', expected a PGM picture (P2 or P5) or a PNG picture");
+            "a.bmp: byte 0: read 'BM123456', expected a PNG picture or a PGM, PBM or "
+            "PPM picture (P1 to P6)");
   EXPECT_EQ(errorOf([&] { readMapServerMap(file("a.yaml", "image: empty.pgm\n" + yaml_keys)); }),
-            "empty.pgm: byte 0: read an empty file, expected a PGM picture (P2 or P5) or a PNG "
-            "picture");
+            "empty.pgm: byte 0: read an empty file, expected a PNG picture or a PGM, PBM or "
+            "PPM picture (P1 to P6)");
 }
 
 TEST_F(MapServerTest, NamesTheFaultOfThePicture) {

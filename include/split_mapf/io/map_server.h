@@ -25,9 +25,9 @@ struct OccupancyMap {
   MapOrigin origin;
 };
 
-/// Reads a map_server YAML file and the picture it names (relative to the YAML): PGM (P2 or P5, 8
-/// or 16 bit) or PNG (grey, grey-alpha, rgb, rgba, palette; 1 to 16 bit; interlaced too). The
-/// picture's own first bytes tell which.
+/// Reads a map_server YAML file and the picture it names (relative to the YAML): PNM (PGM,
+/// and PBM and PPM too; plain or binary, 1 to 16 bit) or PNG (grey, grey-alpha, rgb, rgba, palette;
+/// 1 to 16 bit; interlaced too). The picture's own first bytes tell which.
 ///
 /// Keys image, resolution, origin, negate (0, 1, or a truth value of YAML), occupied_thresh and
 /// free_thresh are required, mode (trinary, scale, raw, in any case) is optional; other keys are

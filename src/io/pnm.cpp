@@ -8,26 +8,37 @@ namespace {
 
 bool isBlank(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
 
-// Walks over the bytes of one PGM file and knows how to name the place it is at.
-class PgmReader {
+// Walks over the bytes of one PNM file and knows how to name the place it is at.
+class PnmReader {
  public:
-  PgmReader(const std::string& path, const std::string& bytes)
-      : path_(path), bytes_(bytes), plain_(bytes.compare(0, 2, "P2") == 0) {}
+  PnmReader(const std::string& path, const std::string& bytes)
+      : path_(path),
+        bytes_(bytes),
+        kind_(isPnm(bytes) ? bytes[1] : '5'),
+        plain_(kind_ <= '3'),
+        bitmap_(kind_ == '1' || kind_ == '4'),
+        channels_(kind_ == '3' || kind_ == '6' ? 3 : 1) {}
 
   MapPicture read() {
-    if (!plain_ && bytes_.compare(0, 2, "P5") != 0) {
-      failAtByte(path_, 0, "read " + quoted(bytes_.substr(0, 2)) + ", expected 'P2' or 'P5'");
+    if (!isPnm(bytes_)) {
+      failAtByte(path_, 0, "read " + quoted(bytes_.substr(0, 2)) + ", expected 'P1' to 'P6'");
     }
     position_ = 2;
     if (position_ < bytes_.size() && !isBlank(bytes_[position_]) && bytes_[position_] != '#') {
-      fail("read " + quoted(bytes_.substr(0, 3)) + ", expected 'P2' or 'P5' and white space");
+      fail("read " + quoted(bytes_.substr(0, 3)) + ", expected 'P" + kind_ + "' and white space");
     }
     MapPicture picture;
     picture.width = readNumber("the width", 1, kMaxPictureSide);
     picture.height = readNumber("the height", 1, kMaxPictureSide);
-    maxval_ = readNumber("the maximum value", 1, 65535);
-    samples_ = std::size_t{picture.width} * picture.height;
-    picture.brightness = plain_ ? readPlainSamples() : readBinarySamples();
+    maxval_ = bitmap_ ? 1 : readNumber("the maximum value", 1, 65535);
+    samples_ = std::size_t{picture.width} * picture.height * channels_;
+    if (!plain_) skipToBinarySamples();
+    if (plain_) {
+      picture.brightness = readPlainSamples();
+    } else {
+      picture.brightness = bitmap_ ? readBits(picture.width, picture.height) : readBinarySamples();
+    }
+    if (channels_ == 3) averageColours(picture.brightness);
     return picture;
   }
 
@@ -89,7 +100,8 @@ class PgmReader {
   std::vector<float> readPlainSamples() {
     std::vector<float> values;
     for (std::size_t i = 0; i < samples_; ++i) {
-      values.push_back(scaled(readNumber("sample " + countOf(i + 1), 0, maxval_)));
+      values.push_back(bitmap_ ? readDigit(i)
+                               : scaled(readNumber("sample " + countOf(i + 1), 0, maxval_)));
     }
     skipBlanksAndComments();
     if (position_ < bytes_.size()) {
@@ -99,7 +111,43 @@ class PgmReader {
     return values;
   }
 
-  std::vector<float> readBinarySamples() {
+  // A pixel of a plain bitmap: 1 is black, and no blank need part it from the next.
+  float readDigit(std::size_t i) {
+    skipBlanksAndComments();
+    const char digit = position_ < bytes_.size() ? bytes_[position_] : '\0';
+    if (digit != '0' && digit != '1') {
+      const std::string read =
+          position_ == bytes_.size() ? "the end of the file" : quoted(std::string(1, digit));
+      fail("read " + read + ", expected sample " + countOf(i + 1) + ", 0 or 1");
+    }
+    ++position_;
+    return digit == '1' ? 0 : 255;
+  }
+
+  // The same in eight pixels a byte; every row begins with a byte of its own.
+  std::vector<float> readBits(std::uint32_t width, std::uint32_t height) {
+    const std::size_t row_bytes = (std::size_t{width} + 7) / 8;
+    requireLength(row_bytes * height);
+    std::vector<float> values;
+    values.reserve(samples_);
+    for (std::size_t y = 0; y < height; ++y) {
+      for (std::size_t x = 0; x < width; ++x) {
+        const auto byte = static_cast<unsigned char>(bytes_[position_ + y * row_bytes + x / 8]);
+        values.push_back((byte >> (7 - x % 8) & 1U) != 0 ? 0 : 255);
+      }
+    }
+    return values;
+  }
+
+  static void averageColours(std::vector<float>& values) {
+    const std::size_t pixels = values.size() / 3;
+    for (std::size_t i = 0; i < pixels; ++i) {
+      values[i] = (values[3 * i] + values[3 * i + 1] + values[3 * i + 2]) / 3;
+    }
+    values.resize(pixels);
+  }
+
+  void skipToBinarySamples() {
     if (position_ == bytes_.size() || !isBlank(bytes_[position_])) {
       fail("read " +
            (position_ == bytes_.size() ? "the end of the file"
@@ -107,6 +155,9 @@ class PgmReader {
            ", expected one white space and the samples");
     }
     ++position_;
+  }
+
+  std::vector<float> readBinarySamples() {
     const std::size_t bytes_a_sample = maxval_ > 255 ? 2 : 1;
     requireLength(samples_ * bytes_a_sample);
     std::vector<float> values(samples_);
@@ -153,7 +204,10 @@ class PgmReader {
 
   const std::string& path_;
   const std::string& bytes_;
+  const char kind_;
   const bool plain_;
+  const bool bitmap_;
+  const std::size_t channels_;
   std::size_t position_ = 0;
   std::size_t line_ = 1;
   std::uint32_t maxval_ = 0;
@@ -162,8 +216,12 @@ class PgmReader {
 
 }  // namespace
 
-MapPicture parsePgm(const std::string& path, const std::string& bytes) {
-  return PgmReader(path, bytes).read();
+bool isPnm(const std::string& bytes) {
+  return bytes.size() >= 2 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6';
+}
+
+MapPicture parsePnm(const std::string& path, const std::string& bytes) {
+  return PnmReader(path, bytes).read();
 }
 
 }  // namespace split_mapf
