@@ -59,8 +59,9 @@ class NoAnswer(Exception):
 def find_command():
     """The command: catkin puts it beside this program."""
     beside = os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), "split_mapf")
-    places = [beside] if os.path.isfile(beside) else []
-    places += roslib.packages.find_node("split_mapf", "split_mapf")
+    if os.path.isfile(beside):
+        return beside
+    places = roslib.packages.find_node("split_mapf", "split_mapf")
     if not places:
         raise NoAnswer("the command split_mapf, which reads maps and scenarios, is neither at %s "
                        "nor elsewhere in the package; build or install it" % beside)
