@@ -10,10 +10,13 @@ namespace {
 /// it is free, since all robots in between have been placed below.
 class Sinking {
  public:
-  Sinking(const PartTree& tree, const std::vector<std::uint32_t>& robots)
+  Sinking(const PartTree& tree, const std::vector<std::uint32_t>& robots,
+          const Deadline& deadline)
       : placed_(tree.size(), kNoRobot) {
+    SparsePoll poll(deadline);
     std::vector<std::uint32_t> path;
     for (std::uint32_t rank = 0; rank < tree.size(); ++rank) {
+      poll();
       while (!path.empty() && path.back() != tree.parent[rank]) leave(path);
       path.push_back(rank);
       if (robots[rank] != kNoRobot) waiting_.push_back(robots[rank]);
@@ -38,10 +41,11 @@ class Sinking {
 }  // namespace
 
 std::vector<std::uint32_t> gatherBlanks(const PartTree& tree,
-                                        const std::vector<std::uint32_t>& robots) {
+                                        const std::vector<std::uint32_t>& robots,
+                                        const Deadline& deadline) {
   const auto blanks =
       static_cast<std::uint32_t>(std::count(robots.begin(), robots.end(), kNoRobot));
-  std::vector<std::uint32_t> result = Sinking(tree, robots).takeResult();
+  std::vector<std::uint32_t> result = Sinking(tree, robots, deadline).takeResult();
   // The empty vertices now include the root and the parent of each. A robot among the lowest ranks
   // leaves once those above it have left, and goes where no empty vertex lies below.
   std::uint32_t to = tree.size();

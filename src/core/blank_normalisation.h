@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/part_tree.h"
+#include "split_mapf/core/deadline.h"
 
 namespace split_mapf {
 
@@ -13,8 +14,9 @@ constexpr std::uint32_t kNoRobot = 0xffffffffU;
 /// Moves robots along tree edges into empty vertices until the empty ones are those of the lowest
 /// ranks: a connected set around the root. Which robot ends where is one legal outcome of many.
 /// @param robots  rank -> robot, or kNoRobot for an empty vertex.
-/// @return the same afterwards. Cost: linear in the tree.
+/// @return the same afterwards. Cost: linear in the tree. @throws Interrupted.
 std::vector<std::uint32_t> gatherBlanks(const PartTree& tree,
-                                        const std::vector<std::uint32_t>& robots);
+                                        const std::vector<std::uint32_t>& robots,
+                                        const Deadline& deadline = {});
 
 }  // namespace split_mapf

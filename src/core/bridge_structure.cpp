@@ -16,14 +16,15 @@ struct BridgeStructure::SearchForest {
   std::vector<Vertex> parent;         // kNoVertex for roots
   std::vector<std::uint32_t> depth;
 
-  explicit SearchForest(const Graph& graph)
+  SearchForest(const Graph& graph, const Deadline& deadline)
       : number(graph.size(), kUnseen),
         parent(graph.size(), kNoVertex),
         depth(graph.size(), 0),
         next_(graph.size(), 0) {
     order.reserve(graph.size());
+    SparsePoll poll(deadline);
     for (Vertex root = 0; root < graph.size(); ++root) {
-      if (number[root] == kUnseen) searchFrom(graph, root);
+      if (number[root] == kUnseen) searchFrom(graph, root, poll);
     }
   }
 
@@ -33,9 +34,10 @@ struct BridgeStructure::SearchForest {
     order.push_back(v);
   }
 
-  void searchFrom(const Graph& graph, Vertex root) {
+  void searchFrom(const Graph& graph, Vertex root, SparsePoll& poll) {
     discover(root);
     for (Vertex v = root; v != kNoVertex;) {
+      poll();
       const VertexRange neighbours = graph.neighbours(v);
       std::uint32_t i = next_[v];
       while (i < neighbours.size() && number[neighbours.begin()[i]] != kUnseen) ++i;
@@ -63,14 +65,16 @@ std::uint32_t blanksToCover(PlaceKind kind, std::uint32_t distance) {
   return distance + (kind == PlaceKind::kJunction ? 1 : 0);
 }
 
-BridgeStructure::BridgeStructure(const Graph& graph)
+BridgeStructure::BridgeStructure(const Graph& graph, const Deadline& deadline)
     : graph_(graph), part_of_(graph.size(), 0), loop_of_(graph.size(), kNoLoop) {
-  const SearchForest forest(graph);
-  numberLoops(forest);
-  findRings();
-  findEvenCycles(forest);
-  chooseRoots();
-  countEnoughBlanks();
+  {
+    const SearchForest forest(graph, deadline);
+    numberLoops(forest, deadline);
+    findRings(deadline);
+    findEvenCycles(forest, deadline);
+  }
+  chooseRoots(deadline);
+  countEnoughBlanks(deadline);
 }
 
 PlaceKind BridgeStructure::kindOf(Vertex v) const {
@@ -79,10 +83,12 @@ PlaceKind BridgeStructure::kindOf(Vertex v) const {
 }
 
 /// A tree edge is a bridge when no edge from below leads above it (Tarjan 1974).
-void BridgeStructure::numberLoops(const SearchForest& forest) {
+void BridgeStructure::numberLoops(const SearchForest& forest, const Deadline& deadline) {
+  SparsePoll poll(deadline);
   const auto size = static_cast<std::uint32_t>(forest.order.size());
   std::vector<std::uint32_t> low = forest.number;
   for (std::uint32_t i = size; i-- > 0;) {
+    poll();
     const Vertex v = forest.order[i];
     for (const Vertex u : graph_.neighbours(v)) {
       if (u == forest.parent[v]) continue;
@@ -90,6 +96,7 @@ void BridgeStructure::numberLoops(const SearchForest& forest) {
     }
   }
   for (const Vertex v : forest.order) {
+    poll();
     const Vertex parent = forest.parent[v];
     if (parent == kNoVertex) {
       part_of_[v] = static_cast<std::uint32_t>(parts_.size());
@@ -108,9 +115,11 @@ void BridgeStructure::numberLoops(const SearchForest& forest) {
   }
 }
 
-void BridgeStructure::findRings() {
+void BridgeStructure::findRings(const Deadline& deadline) {
+  SparsePoll poll(deadline);
   for (Loop& loop : loops_) loop.is_ring = true;
   for (Vertex v = 0; v < graph_.size(); ++v) {
+    poll();
     if (loop_of_[v] == kNoLoop) continue;
     std::uint32_t inside = 0;
     for (const Vertex u : graph_.neighbours(v)) inside += loop_of_[u] == loop_of_[v] ? 1 : 0;
@@ -120,9 +129,11 @@ void BridgeStructure::findRings() {
 
 /// A loop has odd cycles only when it is a cactus of odd cycles: two cycles that share an edge make
 /// three paths between two vertices, of which two have the same parity.
-void BridgeStructure::findEvenCycles(const SearchForest& forest) {
+void BridgeStructure::findEvenCycles(const SearchForest& forest, const Deadline& deadline) {
+  SparsePoll poll(deadline);
   std::vector<bool> on_cycle(graph_.size(), false);  // the edge from a vertex to its parent
   for (const Vertex v : forest.order) {
+    poll();
     if (loop_of_[v] == kNoLoop) continue;
     Loop& loop = loops_[loop_of_[v]];
     for (const Vertex u : graph_.neighbours(v)) {
@@ -138,8 +149,10 @@ void BridgeStructure::findEvenCycles(const SearchForest& forest) {
   }
 }
 
-void BridgeStructure::chooseRoots() {
+void BridgeStructure::chooseRoots(const Deadline& deadline) {
+  SparsePoll poll(deadline);
   for (Vertex v = 0; v < graph_.size(); ++v) {
+    poll();
     GraphPart& part = parts_[part_of_[v]];
     const PlaceKind kind = kindOf(v);
     const bool is_end = kind == PlaceKind::kCorridor && graph_.neighbours(v).size() <= 1;
@@ -170,11 +183,13 @@ std::uint32_t BridgeStructure::blanksForCorridor(Vertex from, Vertex next) const
                                            : blanksToJoin(kindOf(from), kindOf(v), length);
 }
 
-void BridgeStructure::countEnoughBlanks() {
+void BridgeStructure::countEnoughBlanks(const Deadline& deadline) {
+  SparsePoll poll(deadline);
   for (GraphPart& part : parts_) {
     if (part.root_kind != PlaceKind::kCorridor && !part.is_ring) part.enough_blanks = 1;
   }
   for (Vertex v = 0; v < graph_.size(); ++v) {
+    poll();
     const PlaceKind kind = kindOf(v);
     if (kind == PlaceKind::kCorridor) continue;
     GraphPart& part = parts_[part_of_[v]];

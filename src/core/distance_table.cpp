@@ -7,12 +7,43 @@
 #include "core/guided_search.h"
 
 namespace split_mapf {
+namespace {
 
-DistanceTable::DistanceTable(const Graph& graph, Vertex goal, DistanceExtent extent) : goal_(goal) {
+constexpr std::size_t kPollEvery = std::size_t{1} << 16U;
+// Vertices for which a thread keeps the queue of its last search.
+constexpr std::size_t kKeptQueue = std::size_t{1} << 20U;
+
+/// A thread's queue, given back at the end of a search if it is large.
+class LentQueue {
+ public:
+  explicit LentQueue(std::size_t size) : queue_(kept()) {
+    if (queue_.size() < size) queue_.resize(size);
+  }
+  ~LentQueue() {
+    if (queue_.size() > kKeptQueue) std::vector<Vertex>().swap(queue_);
+  }
+  LentQueue(const LentQueue&) = delete;
+  LentQueue& operator=(const LentQueue&) = delete;
+  std::vector<Vertex>& get() { return queue_; }
+
+ private:
+  // A fresh queue for each of a thousand tables costs more than the search.
+  static std::vector<Vertex>& kept() {
+    thread_local std::vector<Vertex> queue;
+    return queue;
+  }
+  std::vector<Vertex>& queue_;
+};
+
+}  // namespace
+
+DistanceTable::DistanceTable(const Graph& graph, Vertex goal, DistanceExtent extent,
+                             const Deadline& deadline)
+    : goal_(goal) {
   if (extent == DistanceExtent::kAll) {
     narrow_.assign(graph.size(), kNarrowUnknown);
     narrow_[goal] = 0;
-    searchAll(graph);
+    searchAll(graph, deadline);
     return;
   }
   startOnDemand(graph);
@@ -28,20 +59,23 @@ void DistanceTable::startOnDemand(const Graph& graph) {
   settle(goal_, 0);
 }
 
-void DistanceTable::searchAll(const Graph& graph) {
-  // Kept a thread: a fresh queue for each of a thousand tables costs more than the search.
-  thread_local std::vector<Vertex> queue;
-  if (queue.size() <= graph.size()) queue.resize(graph.size() + 1);
+void DistanceTable::searchAll(const Graph& graph, const Deadline& deadline) {
+  LentQueue lent(std::size_t{graph.size()} + 1);
+  std::vector<Vertex>& queue = lent.get();
   std::size_t head = 0;
   std::size_t tail = 0;
   queue[tail++] = goal_;
-  if (graph.rowsOfFour() != nullptr) searchByFours(graph.rowsOfFour(), queue.data(), head, tail);
+  if (graph.rowsOfFour() != nullptr) {
+    searchByFours(graph.rowsOfFour(), queue.data(), head, tail, deadline);
+  }
+  SparsePoll poll(deadline);
   for (; head < tail; ++head) {
+    poll();
     const Vertex v = queue[head];
     const auto next = static_cast<std::uint16_t>(narrow_[v] + 1);
     for (const Vertex u : graph.neighbours(v)) {
       if (narrow_[u] != kNarrowUnknown) continue;
-      if (next == kNarrowUnknown) return searchWide(graph, queue, head, tail);
+      if (next == kNarrowUnknown) return searchWide(graph, queue, head, tail, deadline);
       narrow_[u] = next;
       queue[tail++] = u;
     }
@@ -49,13 +83,14 @@ void DistanceTable::searchAll(const Graph& graph) {
 }
 
 void DistanceTable::searchByFours(const Vertex* rows, Vertex* queue, std::size_t& head,
-                                  std::size_t& tail) {
+                                  std::size_t& tail, const Deadline& deadline) {
   std::uint16_t* const distance = narrow_.data();
   std::size_t end = tail;
   std::size_t from = head;
   // Whether a neighbour is new cannot be predicted: all are written behind the queue's end, which
   // moves on past the new ones. The four differ, or are the vertex itself, which is known.
   for (; from < end; ++from) {
+    if (from % kPollEvery == kPollEvery - 1) deadline.require();
     const Vertex v = queue[from];
     const auto next = static_cast<std::uint16_t>(distance[v] + 1);
     if (next == kNarrowUnknown) break;
@@ -75,9 +110,11 @@ void DistanceTable::searchByFours(const Vertex* rows, Vertex* queue, std::size_t
 }
 
 void DistanceTable::searchWide(const Graph& graph, std::vector<Vertex>& queue, std::size_t head,
-                               std::size_t tail) {
+                               std::size_t tail, const Deadline& deadline) {
   widen();
+  SparsePoll poll(deadline);
   for (; head < tail; ++head) {
+    poll();
     for (const Vertex u : graph.neighbours(queue[head])) {
       if (wide_[u] != kUnreachable) continue;
       wide_[u] = wide_[queue[head]] + 1;
@@ -133,25 +170,32 @@ DistanceTables::DistanceTables(const Graph& graph, const std::vector<Vertex>& go
                                DistanceExtent extent)
     : graph_(&graph), goals_(goals), extent_(extent), slots_(goals.size()) {}
 
+DistanceTables::DistanceTables(const Grid& grid, const std::vector<Vertex>& goals,
+                               DistanceExtent extent)
+    : grid_(&grid), goals_(goals), extent_(extent), slots_(goals.size()) {}
+
 DistanceTables::DistanceTables(const Grid& grid, const std::vector<Vertex>& starts,
                                const std::vector<Vertex>& goals,
                                std::shared_ptr<const DistanceTables> known)
-    : DistanceTables(grid.graph(), goals, DistanceExtent::kOnDemand) {
-  grid_ = &grid;
+    : DistanceTables(grid, goals, DistanceExtent::kOnDemand) {
   starts_ = starts;
   known_ = std::move(known);
 }
 
-std::shared_ptr<const DistanceTable> DistanceTables::make(std::uint32_t i) const {
-  if (grid_ == nullptr) return std::make_shared<const DistanceTable>(*graph_, goals_[i], extent_);
+std::shared_ptr<const DistanceTable> DistanceTables::make(std::uint32_t i,
+                                                          const Deadline& deadline) const {
+  if (starts_.empty()) {
+    const Graph& graph = graph_ != nullptr ? *graph_ : grid_->graph(deadline);
+    return std::make_shared<const DistanceTable>(graph, goals_[i], extent_, deadline);
+  }
   return std::make_shared<const DistanceTable>(goals_[i],
                                                DistanceGuide{grid_, starts_[i], known_->share(i)});
 }
 
-const DistanceTable& DistanceTables::operator[](std::uint32_t i) const {
+const DistanceTable& DistanceTables::find(std::uint32_t i, const Deadline& deadline) const {
   Slot& slot = slots_[i];
   std::call_once(slot.once, [&] {
-    if (!slot.table) slot.table = make(i);
+    if (!slot.table) slot.table = make(i, deadline);
   });
   return *slot.table;
 }

@@ -5,14 +5,18 @@
 namespace split_mapf {
 
 ExchangeClasses::ExchangeClasses(const PartTree& tree, const BridgeStructure& structure,
-                                 std::uint32_t blanks)
+                                 std::uint32_t blanks, const Deadline& deadline)
     : tree_(tree),
       blanks_(blanks),
       class_of_(tree.size(), 0),
       outlooks_(tree.size()),
       barriers_(1) {
   outlooks_[0].place = structure.kindOf(tree.vertices[0]);
-  for (std::uint32_t rank = 1; rank < tree.size(); ++rank) visit(rank, structure);
+  SparsePoll poll(deadline);
+  for (std::uint32_t rank = 1; rank < tree.size(); ++rank) {
+    poll();
+    visit(rank, structure);
+  }
 }
 
 void ExchangeClasses::visit(std::uint32_t rank, const BridgeStructure& structure) {

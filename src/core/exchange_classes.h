@@ -17,8 +17,9 @@ namespace split_mapf {
 /// @pre the component is no ring, and the tree grows from its GraphPart::root.
 class ExchangeClasses {
  public:
-  /// Cost: linear in the component.
-  ExchangeClasses(const PartTree& tree, const BridgeStructure& structure, std::uint32_t blanks);
+  /// Cost: linear in the component. @throws Interrupted.
+  ExchangeClasses(const PartTree& tree, const BridgeStructure& structure, std::uint32_t blanks,
+                  const Deadline& deadline);
 
   std::uint32_t classOf(std::uint32_t rank) const { return class_of_[rank]; }
 

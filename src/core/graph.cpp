@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace split_mapf {
 
@@ -33,16 +34,24 @@ Graph::Graph(std::uint32_t size, const std::vector<std::pair<Vertex, Vertex>>& e
   }
   offsets_[size] = end;
   targets_.resize(end);
-  fillRowsOfFour();
+  fillRowsOfFour({});
 }
 
-void Graph::fillRowsOfFour() {
+Graph::Graph(std::vector<std::uint32_t> offsets, std::vector<Vertex> targets,
+             const Deadline& deadline)
+    : offsets_(std::move(offsets)), targets_(std::move(targets)) {
+  fillRowsOfFour(deadline);
+}
+
+void Graph::fillRowsOfFour(const Deadline& deadline) {
+  SparsePoll poll(deadline);
   for (Vertex v = 0; v < size(); ++v) {
     if (neighbours(v).size() > 4) return;
   }
   fours_.resize(std::size_t{size()} * 4);
   auto row = fours_.begin();
   for (Vertex v = 0; v < size(); ++v, row += 4) {
+    poll();
     const VertexRange known = neighbours(v);
     std::fill(std::copy(known.begin(), known.end(), row), row + 4, v);
   }

@@ -1,5 +1,6 @@
 #include "split_mapf/core/grid.h"
 
+#include <mutex>
 #include <utility>
 
 #include "split_mapf/core/error.h"
@@ -29,23 +30,54 @@ std::string toString(Cell cell) {
   return "(" + std::to_string(cell.x) + "," + std::to_string(cell.y) + ")";
 }
 
-Grid::Grid(std::uint32_t width, std::uint32_t height, const std::vector<bool>& free)
+struct Grid::Deferred {
+  std::once_flag once;
+  Graph graph;
+};
+
+Grid::Grid(std::uint32_t width, std::uint32_t height, const std::vector<bool>& free,
+           const Deadline& deadline)
     : width_(width), height_(height) {
   requireShape(width, height, free.size());
-  vertices_.assign(free.size(), kNoVertex);
-  for (std::uint32_t i = 0; i < free.size(); ++i) {
-    if (!free[i]) continue;
-    vertices_[i] = static_cast<Vertex>(cells_.size());
-    cells_.push_back(i);
+  numbering_ = CellNumbering(free, deadline);
+  if (isHuge()) {
+    deferred_ = std::make_shared<Deferred>();
+    return;
   }
-  std::vector<std::pair<Vertex, Vertex>> edges;
-  edges.reserve(cells_.size() * 2);
-  for (Vertex v = 0; v < cells_.size(); ++v) {
-    const std::uint32_t i = cells_[v];
-    if (i % width + 1 < width && free[i + 1]) edges.emplace_back(v, vertices_[i + 1]);
-    if (i / width + 1 < height && free[i + width]) edges.emplace_back(v, vertices_[i + width]);
+  SparsePoll poll(deadline);
+  if (free.size() <= kHuge) vertices_.assign(free.size(), kNoVertex);
+  cells_.reserve(size());
+  for (Vertex v = 0; v < size(); ++v) {
+    poll();
+    const std::size_t i = numbering_.cellOf(v);
+    if (!vertices_.empty()) vertices_[i] = v;
+    cells_.push_back(static_cast<std::uint32_t>(i));
   }
-  graph_ = Graph(static_cast<std::uint32_t>(cells_.size()), edges);
+  graph_ = buildGraph(deadline);
+}
+
+Graph Grid::buildGraph(const Deadline& deadline) const {
+  SparsePoll poll(deadline);
+  std::vector<std::uint32_t> offsets = {0};
+  std::vector<Vertex> targets;
+  offsets.reserve(std::size_t{size()} + 1);
+  targets.reserve(std::size_t{size()} * 4);
+  for (Vertex v = 0; v < size(); ++v) {
+    poll();
+    const Cell c = cellOf(v);
+    for (const Cell next : {Cell{c.x, c.y - 1}, Cell{c.x - 1, c.y}, Cell{c.x + 1, c.y},
+                            Cell{c.x, c.y + 1}}) {
+      const Vertex u = vertexAt(next);
+      if (u != kNoVertex) targets.push_back(u);
+    }
+    offsets.push_back(static_cast<std::uint32_t>(targets.size()));
+  }
+  return Graph(std::move(offsets), std::move(targets), deadline);
+}
+
+const Graph& Grid::deferredGraph(const Deadline& deadline) const {
+  std::call_once(deferred_->once, [&] { deferred_->graph = buildGraph(deadline); });
+  return deferred_->graph;
 }
 
 }  // namespace split_mapf

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <unordered_map>
 #include <utility>
 
 #include "split_mapf/core/error.h"
@@ -30,18 +31,16 @@ std::vector<Vertex> locate(const Grid& grid, const std::vector<Cell>& cells, con
 
 void reportDuplicates(const Grid& grid, const std::vector<Vertex>& vertices, const char* role,
                       FaultKind kind, std::vector<InstanceFault>& faults) {
-  std::vector<std::uint32_t> owner(grid.size(), kNoVertex);
+  std::unordered_map<Vertex, std::uint32_t> owner;
   for (std::uint32_t robot = 0; robot < vertices.size(); ++robot) {
     const Vertex v = vertices[robot];
     if (v == kNoVertex) continue;
-    if (owner[v] == kNoVertex) {
-      owner[v] = robot;
-      continue;
-    }
+    const auto [first, is_new] = owner.emplace(v, robot);
+    if (is_new) continue;
     faults.push_back({robot, kind,
                       "robot " + std::to_string(robot) + ": its " + role + " " +
                           toString(grid.cellOf(v)) + " is also the " + role + " of robot " +
-                          std::to_string(owner[v]) + "; each robot needs its own"});
+                          std::to_string(first->second) + "; each robot needs its own"});
   }
 }
 
@@ -66,7 +65,7 @@ Instance::Instance(std::shared_ptr<const Grid> grid, const std::vector<Cell>& st
         [](const InstanceFault& a, const InstanceFault& b) { return a.robot < b.robot; });
     throw InstanceError(std::move(faults));
   }
-  tables_ = std::make_shared<DistanceTables>(grid_->graph(), goals_, extent);
+  tables_ = std::make_shared<DistanceTables>(*grid_, goals_, extent);
 }
 
 Instance Instance::fromVertices(std::shared_ptr<const Grid> grid, const std::vector<Vertex>& starts,

@@ -15,7 +15,7 @@ PartCheck::PartCheck(std::uint32_t part, const std::vector<std::uint32_t>& robot
       robots_(robots),
       tables_(tables),
       blanks_(part_.size - static_cast<std::uint32_t>(robots.size())),
-      tree_(growPartTree(tables.graph, part_.root, tables.rank_of)),
+      tree_(growPartTree(tables.graph, part_.root, tables.rank_of, tables.deadline)),
       at_start_(robotsByRank(tables.starts)),
       at_goal_(robotsByRank(tables.goals)) {}
 
@@ -25,8 +25,8 @@ std::optional<SolvabilityVerdict> PartCheck::findRefusal() {
     for (std::uint32_t rank = 0; rank < tree_.size(); ++rank) ranks[rank] = rank;
     return compareRing(ranks);
   }
-  at_start_ = gatherBlanks(tree_, at_start_);
-  at_goal_ = gatherBlanks(tree_, at_goal_);
+  at_start_ = gatherBlanks(tree_, at_start_, tables_.deadline);
+  at_goal_ = gatherBlanks(tree_, at_goal_, tables_.deadline);
   std::optional<SolvabilityVerdict> refusal = compareClasses();
   if (!refusal && blanks_ == 0) refusal = compareFullLoops();
   return refusal;
@@ -50,7 +50,7 @@ std::vector<std::uint32_t> PartCheck::robotsByRank(const std::vector<Vertex>& pl
 }
 
 std::optional<SolvabilityVerdict> PartCheck::compareClasses() {
-  const ExchangeClasses classes(tree_, tables_.structure, blanks_);
+  const ExchangeClasses classes(tree_, tables_.structure, blanks_, tables_.deadline);
   for (std::uint32_t rank = blanks_; rank < tree_.size(); ++rank) {
     tables_.goal_rank[at_goal_[rank]] = rank;
   }

@@ -16,6 +16,7 @@ struct CheckTables {
   const BridgeStructure& structure;
   const std::vector<Vertex>& starts;
   const std::vector<Vertex>& goals;
+  const Deadline& deadline;
   std::vector<std::uint32_t> rank_of;    ///< vertex -> rank in the tree of its part
   std::vector<std::uint32_t> goal_rank;  ///< robot -> where the normalised goals have it
 };
@@ -25,7 +26,7 @@ class PartCheck {
  public:
   PartCheck(std::uint32_t part, const std::vector<std::uint32_t>& robots, CheckTables& tables);
 
-  /// Nothing when the part is solvable. Cost: linear in the part.
+  /// Nothing when the part is solvable. Cost: linear in the part. @throws Interrupted.
   std::optional<SolvabilityVerdict> findRefusal();
 
  private:

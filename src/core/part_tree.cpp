@@ -4,7 +4,9 @@
 
 namespace split_mapf {
 
-PartTree growPartTree(const Graph& graph, Vertex root, std::vector<std::uint32_t>& rank_of) {
+PartTree growPartTree(const Graph& graph, Vertex root, std::vector<std::uint32_t>& rank_of,
+                      const Deadline& deadline) {
+  SparsePoll poll(deadline);
   PartTree tree;
   std::vector<std::uint32_t> next;  // rank -> the neighbour to look at next
   const auto discover = [&](Vertex v, std::uint32_t parent) {
@@ -16,6 +18,7 @@ PartTree growPartTree(const Graph& graph, Vertex root, std::vector<std::uint32_t
   };
   std::uint32_t rank = discover(root, 0);
   while (true) {
+    poll();
     const VertexRange neighbours = graph.neighbours(tree.vertices[rank]);
     std::uint32_t i = next[rank];
     while (i < neighbours.size() && rank_of[neighbours.begin()[i]] != kNoVertex) ++i;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "split_mapf/core/deadline.h"
 #include "split_mapf/core/graph.h"
 
 namespace split_mapf {
@@ -20,7 +21,8 @@ struct PartTree {
 /// Grows the tree from `root`, which any other edge of the component joins to no cousin: each joins
 /// an ancestor and a descendant. Writes the ranks of the component's vertices into `rank_of`.
 /// @pre rank_of has an entry for each vertex of the graph, kNoVertex throughout the component.
-/// Cost: linear in the component.
-PartTree growPartTree(const Graph& graph, Vertex root, std::vector<std::uint32_t>& rank_of);
+/// Cost: linear in the component. @throws Interrupted.
+PartTree growPartTree(const Graph& graph, Vertex root, std::vector<std::uint32_t>& rank_of,
+                      const Deadline& deadline = {});
 
 }  // namespace split_mapf

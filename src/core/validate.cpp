@@ -34,7 +34,10 @@ class VertexPaths {
   bool follows(std::uint32_t path, std::uint32_t step) const {
     const Vertex from = vertex(path, step - 1);
     const Vertex to = vertex(path, step);
-    return from == to || from == kNoVertex || to == kNoVertex || grid_.graph().adjacent(from, to);
+    if (from == to || from == kNoVertex || to == kNoVertex) return true;
+    const Cell a = grid_.cellOf(from);
+    const Cell b = grid_.cellOf(to);
+    return std::abs(a.x - b.x) + std::abs(a.y - b.y) == 1;
   }
 
  private:
@@ -144,33 +147,53 @@ class RobotChecks {
   std::vector<Violation>& violations_;
 };
 
-/// Who stands where at one step: a list of robots a cell, in ascending order. Entries of earlier
-/// steps are told by their stamp, so that a step costs O(robots), whatever the grid's size.
+/// Who stands where at one step: a list of robots a cell, in ascending order. A hash table of the
+/// cells that are taken, whose entries of earlier steps are told by their stamp and count as free,
+/// so that a step costs O(robots) and memory is O(robots), whatever the grid's size.
 class Occupancy {
  public:
   static constexpr std::uint32_t kNobody = 0xffffffffU;
 
-  Occupancy(std::uint32_t cells, std::uint32_t robots)
-      : stamps_(cells, kNobody), first_(cells, kNobody), next_(robots, kNobody) {}
+  explicit Occupancy(std::uint32_t robots) : next_(robots, kNobody) {
+    std::size_t size = 2;
+    while (size < std::size_t{2} * robots) size *= 2;
+    entries_.resize(size);
+  }
 
   void fill(const std::vector<Vertex>& positions, std::uint32_t step) {
     step_ = step;
     for (auto robot = static_cast<std::uint32_t>(positions.size()); robot-- > 0;) {
       const Vertex v = positions[robot];
       if (v == kNoVertex) continue;
-      next_[robot] = firstIn(v);
-      stamps_[v] = step;
-      first_[v] = robot;
+      Entry& entry = entries_[placeOf(v)];
+      next_[robot] = entry.step == step ? entry.first : kNobody;
+      entry = {step, v, robot};
     }
   }
-  std::uint32_t firstIn(Vertex v) const { return stamps_[v] == step_ ? first_[v] : kNobody; }
+  /// @pre fill() was called.
+  std::uint32_t firstIn(Vertex v) const {
+    const Entry& entry = entries_[placeOf(v)];
+    return entry.step == step_ ? entry.first : kNobody;
+  }
   std::uint32_t nextAfter(std::uint32_t robot) const { return next_[robot]; }
 
  private:
-  std::uint32_t step_ = kNobody;
-  std::vector<std::uint32_t> stamps_;  // cell -> step of its entry in first_
-  std::vector<std::uint32_t> first_;   // cell -> lowest-numbered robot
-  std::vector<std::uint32_t> next_;    // robot -> next higher-numbered robot in its cell
+  struct Entry {
+    std::uint32_t step = 0xffffffffU;
+    Vertex cell = kNoVertex;
+    std::uint32_t first = kNobody;  // lowest-numbered robot there
+  };
+  /// Where the cell's entry of this step is, or would be.
+  std::size_t placeOf(Vertex v) const {
+    const std::size_t mask = entries_.size() - 1;
+    std::size_t place = (v * 0x9e3779b1U >> 8U) & mask;
+    while (entries_[place].step == step_ && entries_[place].cell != v) place = (place + 1) & mask;
+    return place;
+  }
+
+  std::uint32_t step_ = 0;
+  std::vector<Entry> entries_;
+  std::vector<std::uint32_t> next_;  // robot -> next higher-numbered robot in its cell
 };
 
 /// What is wrong between two robots.
@@ -183,8 +206,8 @@ class PairChecks {
         violations_(violations),
         before_(paths.count(), kNoVertex),
         now_(paths.count(), kNoVertex),
-        occupants_before_(grid.size(), paths.count()),
-        occupants_(grid.size(), paths.count()) {}
+        occupants_before_(paths.count()),
+        occupants_(paths.count()) {}
 
   void run() {
     std::uint32_t steps = 0;

@@ -31,9 +31,10 @@ class SharedWalk {
   }
 
   /// The pairs of robots that conflict, each once.
-  std::vector<std::uint64_t> findConflicts() {
+  std::vector<std::uint64_t> findConflicts(const Deadline& deadline) {
     std::size_t walking = order_.size();
     for (std::uint32_t step = 0;; ++step) {
+      deadline.require();
       while (walking > 0 && step >= paths_[order_[walking - 1]].size()) --walking;
       if (walking == 0) break;
       for (std::size_t i = 0; i < walking; ++i) move(order_[i], step);
@@ -163,13 +164,14 @@ Path shortestPath(const Instance& instance, std::uint32_t robot) {
   return path;
 }
 
-InstanceFeatures measureFeatures(const Instance& instance, const std::vector<Path>& paths) {
+InstanceFeatures measureFeatures(const Instance& instance, const std::vector<Path>& paths,
+                                 const Deadline& deadline) {
   InstanceFeatures features;
   features.robots = instance.robots();
   features.cells = instance.graph().size();
   features.makespan_bound = makespanLowerBound(instance);
   features.sum_bound = sumOfCostsLowerBound(instance);
-  const std::vector<std::uint64_t> pairs = SharedWalk(features.cells, paths).findConflicts();
+  const std::vector<std::uint64_t> pairs = SharedWalk(features.cells, paths).findConflicts(deadline);
   features.conflicting = pairs.size();
   features.largest_group = largestGroup(features.robots, pairs);
   const double times = static_cast<double>(features.robots) * features.makespan_bound;

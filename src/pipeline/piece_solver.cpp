@@ -89,6 +89,9 @@ SolveResult PieceSolver::solveOne(const PieceTask& task, std::uint32_t threads,
       if (task.piece->shares > 0) options.expansion_limit = task.piece->shares * usualBudget(task);
       result = solvers_.create(row.solver, options)->solve(piece, deadline);
       row.horizon = makespanLowerBound(piece);
+    } catch (const Interrupted&) {
+      result = SolveResult();
+      result.termination = interruptionOf(deadline);
     } catch (const std::bad_alloc&) {
       result = SolveResult();
       result.termination = Termination::kMemoryLimit;

@@ -8,6 +8,7 @@
 
 #include "pipeline/auto_choice.h"
 #include "pipeline/refine.h"
+#include "pipeline/stage_words.h"
 #include "solver/search/replan_singly.h"
 #include "split_mapf/core/compaction.h"
 #include "split_mapf/core/validate.h"
@@ -40,7 +41,6 @@ PlanRun::PlanRun(const Instance& instance, CheckedRequest request, const SolverR
       solve_deadline_(deadline),
       log_(listener.progress),
       better_plan_(listener.better_plan),
-      checker_(instance.graph()),
       solvers_(solvers),
       piece_solver_(request_, solvers, executor, solve_deadline_, log_) {
   const PlanRequest& asked = request_.asked;
@@ -55,6 +55,8 @@ PlanRun::PlanRun(const Instance& instance, CheckedRequest request, const SolverR
 PlanReport PlanRun::run() {
   try {
     runStages();
+  } catch (const Interrupted&) {
+    if (!report_.plan) interrupt();
   } catch (const std::bad_alloc&) {
     if (!report_.plan) {
       report_.termination = Termination::kMemoryLimit;
@@ -74,6 +76,7 @@ void PlanRun::runStages() {
   log_.enterStage("distances");
   if (!computeDistances()) return interrupt();
   setLowerBounds();
+  if (acceptShortestPath()) return;
   choose();
   std::optional<Plan> plan = planInPieces();
   if (!plan) return;
@@ -103,7 +106,7 @@ bool PlanRun::computeDistances() {
       instance_.robots(),
       [&](std::uint32_t robot) {
         if (deadline_.expired()) return;
-        instance_.distances(robot);
+        instance_.distances(robot, deadline_);
         // Now that the table is in the cache.
         if (choosing) shortest_paths_[robot] = shortestPath(instance_, robot);
         if (seed) ways_[robot] = drawShortestWay(instance_, robot, *seed);
@@ -120,14 +123,30 @@ std::optional<std::uint64_t> PlanRun::seedOfWays() const {
 }
 
 bool PlanRun::reportUnsolvable() {
+  checker_.emplace(instance_.grid().graph(deadline_), deadline_);
   const SolvabilityVerdict verdict =
-      checker_.check(instance_.starts(), instance_.goals(), deadline_);
+      checker_->check(instance_.starts(), instance_.goals(), deadline_);
   if (verdict.answer != Solvability::kUnsolvable) return false;
   report_.termination = Termination::kUnsolvable;
   report_.message = explain(verdict, instance_.grid());
   if (verdict.refusal == RefusalKind::kDifferentComponents) {
     report_.cut_off_robot = verdict.robots.front();
   }
+  return true;
+}
+
+bool PlanRun::acceptShortestPath() {
+  const bool is_open = report_.solver == "auto" && (report_.split == "auto" || report_.split == "none");
+  if (instance_.robots() > 1 || !is_open) return false;
+  log_.enterStage("validate");
+  SubproblemReport row;
+  row.agents = 1;
+  row.horizon = report_.makespan_lower_bound;
+  row.solver = request_.solver = "shortest_path";
+  row.status = toString(Termination::kSolved);
+  report_.subproblems.push_back(std::move(row));
+  choice_ = " (chosen: the robot is alone)";
+  accept(Plan{std::move(shortest_paths_)});
   return true;
 }
 
@@ -145,7 +164,7 @@ bool PlanRun::mustChoose() const {
 void PlanRun::choose() {
   if (!mustChoose()) return;
   log_.enterStage("choose");
-  features_ = measureFeatures(instance_, shortest_paths_);
+  features_ = measureFeatures(instance_, shortest_paths_, deadline_);
   shortest_paths_ = {};
   AutoQuestion question;
   question.features = *features_;
@@ -211,7 +230,7 @@ TimeSplitOptions PlanRun::timeSplitOptions() const {
   using Check = SplitOptions::Check;
   const Check check = request_.split_options.check;
   const bool crowded = instance_.robots() > instance_.graph().size() / 4;
-  if (check == Check::kAlways || (check == Check::kAuto && crowded)) options.checker = &checker_;
+  if (check == Check::kAlways || (check == Check::kAuto && crowded)) options.checker = &*checker_;
   return options;
 }
 
@@ -367,9 +386,7 @@ void PlanRun::judge() {
 
 void PlanRun::interrupt() {
   report_.termination = interruptionOf(deadline_);
-  report_.message = report_.termination == Termination::kCancelled
-                        ? "cancelled before a plan was found"
-                        : "no plan within the time limit";
+  report_.message = interruptedIn(log_.stage(), report_.termination);
 }
 
 }  // namespace split_mapf

@@ -29,6 +29,8 @@ class PlanRun {
   bool computeDistances();
   /// The seed of these, where there is such a split.
   std::optional<std::uint64_t> seedOfWays() const;
+  /// Whether the answer is the shortest path of a robot that is alone. @pre it is not cut off.
+  bool acceptShortestPath();
   /// True, with the reason in the report, when no plan exists.
   bool reportUnsolvable();
   /// @pre no robot is cut off.
@@ -68,7 +70,7 @@ class PlanRun {
   Deadline solve_deadline_;  ///< of what `auto` chose: earlier, so that others get a turn
   RunLog log_;
   const BetterPlanCallback& better_plan_;
-  SolvabilityChecker checker_;
+  std::optional<SolvabilityChecker> checker_;  ///< from stage "check" on
   const SolverRegistry& solvers_;
   PieceSolver piece_solver_;
   std::vector<Path> shortest_paths_;                ///< of the robots, until `auto` has chosen

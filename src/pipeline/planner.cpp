@@ -1,5 +1,8 @@
 #include "split_mapf/pipeline/planner.h"
 
+#include <utility>
+
+#include "pipeline/band_run.h"
 #include "pipeline/checked_request.h"
 #include "pipeline/plan_run.h"
 
@@ -9,7 +12,11 @@ void Planner::requireValid(const PlanRequest& request) const { check(request, so
 
 PlanReport Planner::plan(const Instance& instance, const PlanRequest& request,
                          const Deadline& deadline, const PlanListener& listener) const {
-  return PlanRun(instance, check(request, solvers_), solvers_, executor_, deadline, listener).run();
+  CheckedRequest checked = check(request, solvers_);
+  if (BandRun::isFor(instance, checked)) {
+    return BandRun(instance, std::move(checked), solvers_, executor_, deadline, listener).run();
+  }
+  return PlanRun(instance, std::move(checked), solvers_, executor_, deadline, listener).run();
 }
 
 }  // namespace split_mapf

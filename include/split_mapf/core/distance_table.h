@@ -5,6 +5,7 @@
 #include <mutex>
 #include <vector>
 
+#include "split_mapf/core/deadline.h"
 #include "split_mapf/core/graph.h"
 #include "split_mapf/core/grid.h"
 
@@ -39,8 +40,10 @@ class DistanceTable {
   /// The distance of a vertex that cannot reach the goal.
   static constexpr std::uint32_t kUnreachable = 0xffffffffU;
 
-  /// @pre kOnDemand: `graph` outlives the table.
-  DistanceTable(const Graph& graph, Vertex goal, DistanceExtent extent = DistanceExtent::kAll);
+  /// @pre kOnDemand: `graph` outlives the table. @throws Interrupted: a search of all hears the
+  /// deadline, one on demand is not bound by it.
+  DistanceTable(const Graph& graph, Vertex goal, DistanceExtent extent = DistanceExtent::kAll,
+                const Deadline& deadline = {});
   /// One on demand. @pre guide.grid outlives the table, goal and guide.from are vertices of it.
   DistanceTable(Vertex goal, DistanceGuide guide);
   ~DistanceTable();
@@ -69,13 +72,14 @@ class DistanceTable {
   std::size_t placeOf(Vertex v) const {
     return std::size_t{page_of_[v >> kPageBits]} * kPageSize + v % kPageSize;
   }
-  void searchAll(const Graph& graph);
+  void searchAll(const Graph& graph, const Deadline& deadline);
   /// Goes on until the queue is empty or a distance outgrows 16 bits. @pre the queue has room for
   /// one vertex more than the graph has.
-  void searchByFours(const Vertex* rows, Vertex* queue, std::size_t& head, std::size_t& tail);
+  void searchByFours(const Vertex* rows, Vertex* queue, std::size_t& head, std::size_t& tail,
+                     const Deadline& deadline);
   /// Goes on with 32 bits from a queue whose distances outgrow 16.
   void searchWide(const Graph& graph, std::vector<Vertex>& queue, std::size_t head,
-                  std::size_t tail);
+                  std::size_t tail, const Deadline& deadline);
   struct GuidedSearch;
 
   void startOnDemand(const Graph& graph);
@@ -110,12 +114,17 @@ class DistanceTables {
   /// @pre `graph` outlives this object.
   DistanceTables(const Graph& graph, const std::vector<Vertex>& goals,
                  DistanceExtent extent = DistanceExtent::kAll);
+  /// The same on the graph of a grid, which is asked for with the first table.
+  /// @pre `grid` outlives this object.
+  DistanceTables(const Grid& grid, const std::vector<Vertex>& goals, DistanceExtent extent);
   /// Tables on demand for robots on the way from `starts` to `goals`. @param known  tables of the
   /// same robots to other goals. @pre `grid` outlives this object; every goal can be reached.
   DistanceTables(const Grid& grid, const std::vector<Vertex>& starts,
                  const std::vector<Vertex>& goals, std::shared_ptr<const DistanceTables> known);
 
-  const DistanceTable& operator[](std::uint32_t i) const;
+  const DistanceTable& operator[](std::uint32_t i) const { return find(i, {}); }
+  /// The same until the deadline: who comes later tries again. @throws Interrupted.
+  const DistanceTable& find(std::uint32_t i, const Deadline& deadline) const;
   /// Shares a table that stands already, so that stages never search for the same goal twice.
   /// @pre table->goal() is goal i, and nobody has asked for table i yet.
   void adopt(std::uint32_t i, std::shared_ptr<const DistanceTable> table);
@@ -126,13 +135,13 @@ class DistanceTables {
     std::once_flag once;
     std::shared_ptr<const DistanceTable> table;
   };
-  std::shared_ptr<const DistanceTable> make(std::uint32_t i) const;
+  std::shared_ptr<const DistanceTable> make(std::uint32_t i, const Deadline& deadline) const;
 
-  const Graph* graph_;
+  const Graph* graph_ = nullptr;  // null: the grid's
+  const Grid* grid_ = nullptr;
   std::vector<Vertex> goals_;
   DistanceExtent extent_;
-  const Grid* grid_ = nullptr;  // null: without guides
-  std::vector<Vertex> starts_;
+  std::vector<Vertex> starts_;  // empty: without guides
   std::shared_ptr<const DistanceTables> known_;
   mutable std::vector<Slot> slots_;
 };

@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "split_mapf/core/deadline.h"
+
 namespace split_mapf {
 
 /// Index of a graph vertex (of a grid: a free cell), 0 .. size()-1.
@@ -32,6 +34,12 @@ class Graph {
   /// Builds a graph of `size` vertices. @throws std::out_of_range for an edge end >= size.
   Graph(std::uint32_t size, const std::vector<std::pair<Vertex, Vertex>>& edges);
 
+  /// Takes rows that stand already: the neighbours of v are targets[offsets[v] .. offsets[v + 1]).
+  /// @pre each row in ascending order, without repetitions and v itself, and each edge in the rows
+  /// of both ends. @throws Interrupted.
+  Graph(std::vector<std::uint32_t> offsets, std::vector<Vertex> targets,
+        const Deadline& deadline = {});
+
   std::uint32_t size() const { return static_cast<std::uint32_t>(offsets_.size()) - 1; }
   std::uint32_t edgeCount() const { return static_cast<std::uint32_t>(targets_.size() / 2); }
   VertexRange neighbours(Vertex v) const {
@@ -44,7 +52,7 @@ class Graph {
   const Vertex* rowsOfFour() const { return fours_.empty() ? nullptr : fours_.data(); }
 
  private:
-  void fillRowsOfFour();
+  void fillRowsOfFour(const Deadline& deadline);
 
   std::vector<std::uint32_t> offsets_ = {0};
   std::vector<Vertex> targets_;

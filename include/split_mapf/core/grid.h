@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "split_mapf/core/cell_numbering.h"
+#include "split_mapf/core/deadline.h"
 #include "split_mapf/core/graph.h"
 
 namespace split_mapf {
@@ -20,41 +23,65 @@ struct Cell {
 std::string toString(Cell cell);
 
 /// A 4-connected grid: its free cells, packed in row-major order, are the vertices of graph().
-/// Immutable; share it by `std::shared_ptr<const Grid>`.
+/// Immutable and thread-safe; share it by `std::shared_ptr<const Grid>`.
+/// Memory: 8 bytes a cell and about 40 a vertex; 3 bits a cell where the grid is huge, as long as
+/// nobody asks for its graph.
 class Grid {
  public:
+  /// A grid of more cells, or with more free ones, has no tables that grow with these, and its
+  /// graph is built when first asked for.
+  static constexpr std::uint32_t kHuge = 1U << 21U;
+
   /// @param free  row-major, width*height entries, true = free.
-  /// @throws InputError when a side is 0, exceeds 2^15, or `free` has another size.
-  Grid(std::uint32_t width, std::uint32_t height, const std::vector<bool>& free);
+  /// @throws InputError when a side is 0, exceeds 2^15, or `free` has another size; Interrupted.
+  Grid(std::uint32_t width, std::uint32_t height, const std::vector<bool>& free,
+       const Deadline& deadline = {});
 
   std::uint32_t width() const { return width_; }
   std::uint32_t height() const { return height_; }
-  const Graph& graph() const { return graph_; }
   /// Number of free cells.
-  std::uint32_t size() const { return graph_.size(); }
+  std::uint32_t size() const { return numbering_.size(); }
+  /// Whether so many cells are free that the graph takes long to build and much memory.
+  bool isHuge() const { return size() > kHuge; }
+  /// Of a huge grid: the first call builds it, until `deadline` at most. @throws Interrupted.
+  const Graph& graph(const Deadline& deadline = {}) const {
+    return deferred_ ? deferredGraph(deadline) : graph_;
+  }
 
   bool contains(Cell c) const {
     return c.x >= 0 && c.y >= 0 && c.x < static_cast<std::int32_t>(width_) &&
            c.y < static_cast<std::int32_t>(height_);
   }
-  bool isFree(Cell c) const { return vertexAt(c) != kNoVertex; }
+  bool isFree(Cell c) const { return contains(c) && numbering_.isMarked(indexOf(c)); }
   /// The vertex of a free cell; kNoVertex for a blocked cell or one outside the grid.
   Vertex vertexAt(Cell c) const {
-    return contains(c) ? vertices_[static_cast<std::uint32_t>(c.y) * width_ +
-                                   static_cast<std::uint32_t>(c.x)]
-                       : kNoVertex;
+    if (!contains(c)) return kNoVertex;
+    const std::size_t i = indexOf(c);
+    if (!vertices_.empty()) return vertices_[i];
+    return numbering_.isMarked(i) ? numbering_.numberOf(i) : kNoVertex;
   }
   Cell cellOf(Vertex v) const {
-    const std::uint32_t i = cells_[v];
+    const auto i = cells_.empty() ? static_cast<std::uint32_t>(numbering_.cellOf(v)) : cells_[v];
     return {static_cast<std::int32_t>(i % width_), static_cast<std::int32_t>(i / width_)};
   }
+  /// The free cells by their row-major index, for loops over all of a huge grid.
+  const CellNumbering& numbering() const { return numbering_; }
 
  private:
+  struct Deferred;
+  std::size_t indexOf(Cell c) const {
+    return static_cast<std::size_t>(c.y) * width_ + static_cast<std::size_t>(c.x);
+  }
+  Graph buildGraph(const Deadline& deadline) const;
+  const Graph& deferredGraph(const Deadline& deadline) const;
+
   std::uint32_t width_;
   std::uint32_t height_;
-  std::vector<Vertex> vertices_;      // row-major cell -> vertex
-  std::vector<std::uint32_t> cells_;  // vertex -> row-major cell
+  CellNumbering numbering_;
+  std::vector<Vertex> vertices_;      // row-major cell -> vertex; empty where cells are many
+  std::vector<std::uint32_t> cells_;  // vertex -> row-major cell; empty where vertices are many
   Graph graph_;
+  std::shared_ptr<Deferred> deferred_;  // of a huge grid
 };
 
 }  // namespace split_mapf

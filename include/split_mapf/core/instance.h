@@ -44,6 +44,10 @@ class Instance {
 
   /// Distances to the robot's goal; computed on first use, then shared by all copies.
   const DistanceTable& distances(std::uint32_t robot) const { return (*tables_)[robot]; }
+  /// The same, computed until the deadline at most. @throws Interrupted.
+  const DistanceTable& distances(std::uint32_t robot, const Deadline& deadline) const {
+    return tables_->find(robot, deadline);
+  }
   /// The robot's table as a shareable handle.
   std::shared_ptr<const DistanceTable> shareDistances(std::uint32_t robot) const {
     return tables_->share(robot);

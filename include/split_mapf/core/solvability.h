@@ -82,11 +82,10 @@ class BridgeStructure;
 /// Thread-safe after construction.
 class SolvabilityChecker {
  public:
-  /// Cost: O(V + E). @pre `graph` outlives this object.
-  explicit SolvabilityChecker(const Graph& graph);
+  /// Cost: O(V + E). @pre `graph` outlives this object. @throws Interrupted.
+  explicit SolvabilityChecker(const Graph& graph, const Deadline& deadline = {});
 
-  /// Robot i goes from starts[i] to goals[i]. The first refused part decides the verdict. Polls the
-  /// deadline once a part.
+  /// Robot i goes from starts[i] to goals[i]. The first refused part decides the verdict.
   /// @throws std::invalid_argument when the lists differ in length, a vertex is outside the graph
   /// or appears twice in one list.
   /// Cost: O(V) bits and O(robots) where every part has so many empty vertices that all its robots
@@ -95,6 +94,9 @@ class SolvabilityChecker {
                            const Deadline& deadline = {}) const;
 
  private:
+  SolvabilityVerdict checkParts(const std::vector<Vertex>& starts, const std::vector<Vertex>& goals,
+                                const Deadline& deadline) const;
+
   const Graph* graph_;
   std::shared_ptr<const BridgeStructure> structure_;
 };
@@ -102,7 +104,11 @@ class SolvabilityChecker {
 /// The same for one check. Cost: O(V + E), without recursion.
 SolvabilityVerdict checkSolvable(const Graph& graph, const std::vector<Vertex>& starts,
                                  const std::vector<Vertex>& goals, const Deadline& deadline = {});
-/// The same for an instance.
+/// Whether each robot's goal lies in the part of its start; the verdict is kDifferentComponents where
+/// not. Cost: O(cells), without the graph of the grid. @throws Interrupted.
+SolvabilityVerdict checkReachable(const Instance& instance, const Deadline& deadline = {});
+/// checkSolvable() for an instance. On a huge grid the cells around the robots' shortest ways are looked at
+/// first: what can be solved there can be solved, and takes a small part of memory and time.
 SolvabilityVerdict checkSolvable(const Instance& instance, const Deadline& deadline = {});
 
 /// The verdict as a sentence that a person can act on, naming robots and cells, the number of empty

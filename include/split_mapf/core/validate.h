@@ -38,7 +38,8 @@ struct Violation {
 /// cell, each is listed once a step, against the lowest-numbered robot there (`robot`, the later
 /// one in `other`); swaps likewise. Surplus paths, without a robot in the instance, are checked for
 /// all but start and goal. Waiting at the goal behind the arrival is fine.
-/// Thread-safe. Cost: O(robots * makespan) for a plan in which few robots collide.
+/// Thread-safe. Cost: O(robots * makespan) for a plan in which few robots collide, and a few dozen
+/// bytes a robot, whatever the grid.
 std::vector<Violation> validate(const Instance& instance, const Plan& plan);
 
 /// The same for paths given as cells, which may be blocked or outside the grid: what a file or a

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"
 
@@ -29,7 +30,9 @@ Path shortestPath(const Instance& instance, std::uint32_t robot);
 
 /// Measures an instance. @pre no robot is cut off; `paths` has every robot's shortestPath(). Cost:
 /// the steps of the paths, and the robots met in them; eight bytes a conflict in memory.
-InstanceFeatures measureFeatures(const Instance& instance, const std::vector<Path>& paths);
+/// @throws Interrupted.
+InstanceFeatures measureFeatures(const Instance& instance, const std::vector<Path>& paths,
+                                 const Deadline& deadline = {});
 /// The same where the paths are not known yet.
 InstanceFeatures measureFeatures(const Instance& instance);
 
