@@ -12,6 +12,7 @@ foreach(node planner_node replay_node)
   target_link_libraries(${node} PRIVATE split_mapf_ros)
   split_mapf_compile_options(${node})
 endforeach()
+target_sources(planner_node PRIVATE src/node/memory_return.cpp)
 target_link_libraries(planner_node PRIVATE split_mapf_available_solvers)
 
 catkin_install_python(PROGRAMS scripts/plan_client.py scripts/start_rviz.py

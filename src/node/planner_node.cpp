@@ -7,6 +7,7 @@
 
 #include <ros/ros.h>
 
+#include "node/memory_return.h"
 #include "solver/available/available_solvers.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/pipeline/executor.h"
@@ -23,8 +24,12 @@
 
 namespace {
 
-// Callbacks are short but for ~validate_plan; a few threads keep cancelling prompt meanwhile.
+// Callbacks are short; a few threads keep cancelling prompt while a large map is taken in.
 constexpr std::uint32_t kCallbackThreads = 4;
+// Callers of ~validate_plan and ~check_solvable that are served at a time.
+constexpr std::uint32_t kServiceThreads = 2;
+// Of the allocator: enough for the threads of a goal or two that allocate at the same time.
+constexpr std::uint32_t kArenas = 4;
 // Time for the last results to leave the node.
 constexpr double kFlushSec = 0.1;
 
@@ -59,16 +64,20 @@ void run() {
   const split_mapf::PoseTransformer transformer;
   const split_mapf::GoalPlanner goal_planner(planner, options, maps, transformer);
   split_mapf::PlanPublisher publisher(node, private_node, options.publish_paths);
-  const split_mapf::PlanServices services(private_node, solvers, options, maps, goal_planner);
+  split_mapf::PlanServices services(private_node, solvers, options, maps, goal_planner,
+                                    kServiceThreads);
   const split_mapf::QueueLimits limits{options.max_queued_goals, workers};
   split_mapf::PlanServer server(private_node, goal_planner, publisher, limits);
   const split_mapf::ServerDiagnostics diagnostics(node, private_node, server, limits, workers);
+
+  const split_mapf::MemoryReturn memory_return(node, server);
 
   ros::AsyncSpinner spinner(kCallbackThreads);
   spinner.start();
   ROS_INFO("ready: %u workers, action %s", workers, private_node.resolveName("plan_paths").c_str());
   split_mapf::waitForEndSignal();
   server.shutdown();
+  services.shutdown();
   ros::WallDuration(kFlushSec).sleep();
   spinner.stop();
 }
@@ -76,6 +85,7 @@ void run() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  split_mapf::limitArenas(kArenas);
   ros::init(argc, argv, "split_mapf", ros::init_options::NoSigintHandler);
   // Keeps ROS, and with it the log, alive until an error has been told.
   const ros::NodeHandle node;

@@ -52,20 +52,31 @@ GoalOptions GoalPlanner::readOptions(const PlanOptions& asked) const {
 
 PreparedGoal GoalPlanner::prepare(const boost::shared_ptr<const PlanPathsGoal>& goal,
                                   const GoalOptions& options, const Deadline& deadline) const {
-  return withGoalErrors([&] {
-    if (goal->robots.empty()) {
-      throw GoalError(Outcome::kNoRobots, "the goal has no robots; at least one is needed");
-    }
-    const std::shared_ptr<const nav_msgs::OccupancyGrid> sent(&goal->map, [goal](const void*) {});
-    const std::shared_ptr<const nav_msgs::OccupancyGrid> map = maps_.choose(sent);
-    PlanningGrid grid = makePlanningGrid(*map, options.occupancy);
-    requireMapCells(options, grid.geometry.info().resolution);
-    PlacedRobots robots = placeRobots(goal->robots, grid, transformer_.forGoal(deadline));
-    if (options_.publish_paths) distinctRosNames(robots.ids);
-    Instance instance(grid.grid, robots.starts, robots.goals);
-    requireReachableGoals(instance, robots.ids, grid.geometry);
-    return PreparedGoal{options, std::move(grid), std::move(robots), std::move(instance)};
-  });
+  const char* doing = "while the map was being read";
+  try {
+    return withGoalErrors([&] { return prepareUntil(goal, options, deadline, doing); });
+  } catch (const Interrupted&) {
+    throw PreparationStopped(doing);
+  }
+}
+
+PreparedGoal GoalPlanner::prepareUntil(const boost::shared_ptr<const PlanPathsGoal>& goal,
+                                       const GoalOptions& options, const Deadline& deadline,
+                                       const char*& doing) const {
+  if (goal->robots.empty()) {
+    throw GoalError(Outcome::kNoRobots, "the goal has no robots; at least one is needed");
+  }
+  const std::shared_ptr<const nav_msgs::OccupancyGrid> sent(&goal->map, [goal](const void*) {});
+  const std::shared_ptr<const nav_msgs::OccupancyGrid> map = maps_.choose(sent);
+  PlanningGrid grid = makePlanningGrid(*map, options.occupancy, deadline);
+  requireMapCells(options, grid.geometry.info().resolution);
+  doing = "while the robots were being placed";
+  PlacedRobots robots = placeRobots(goal->robots, grid, transformer_.forGoal(deadline));
+  if (options_.publish_paths) distinctRosNames(robots.ids);
+  Instance instance(grid.grid, robots.starts, robots.goals);
+  doing = "while it was being checked whether goals can be reached";
+  requireReachableGoals(instance, robots.ids, grid.geometry, deadline);
+  return PreparedGoal{options, std::move(grid), std::move(robots), std::move(instance)};
 }
 
 GoalAnswer GoalPlanner::plan(const PreparedGoal& goal, const Deadline& deadline,

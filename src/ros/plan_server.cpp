@@ -11,6 +11,8 @@ namespace split_mapf {
 namespace {
 
 constexpr double kFeedbackPeriodSec = 0.2;
+constexpr const char* kWhileOthersRead = "while other goals were being read first";
+constexpr const char* kWhileOthersPlan = "while other goals were planned for first";
 
 /// A slot that is held until the end of a scope.
 class HeldSlot {
@@ -36,6 +38,7 @@ PlanServer::PlanServer(const ros::NodeHandle& private_node, const GoalPlanner& p
     : planner_(planner),
       publisher_(publisher),
       limits_(limits),
+      preparations_(limits.running),
       slots_(limits.running),
       server_(
           private_node, "plan_paths",
@@ -139,19 +142,28 @@ GoalAnswer PlanServer::answer(ActiveGoal& goal) {
   const GoalOptions options = planner_.readOptions(goal.message()->options);
   const Deadline deadline = goal.deadlineWithin(options.plan.time_limit_sec);
   try {
-    const PreparedGoal prepared = planner_.prepare(goal.message(), options, deadline);
+    const PreparedGoal prepared = prepareInTurn(goal, options, deadline);
     return planInTurn(goal, prepared, deadline);
+  } catch (const PreparationStopped& stop) {
+    return stopped(goal, deadline, stop.what());
   } catch (const GoalError&) {
     // What a stopped wait for a transform found is not the reason.
-    if (deadline.stopRequested()) return stopped(goal, deadline);
+    if (deadline.stopRequested()) return stopped(goal, deadline, "while a transform was awaited");
     throw;
   }
+}
+
+PreparedGoal PlanServer::prepareInTurn(ActiveGoal& goal, const GoalOptions& options,
+                                       const Deadline& deadline) {
+  const HeldSlot slot(preparations_, goal.ticket(), deadline);
+  if (!slot.held()) throw PreparationStopped(kWhileOthersRead);
+  return planner_.prepare(goal.message(), options, deadline);
 }
 
 GoalAnswer PlanServer::planInTurn(ActiveGoal& goal, const PreparedGoal& prepared,
                                   const Deadline& deadline) {
   const HeldSlot slot(slots_, goal.ticket(), deadline);
-  if (!slot.held()) return stopped(goal, deadline);
+  if (!slot.held()) return stopped(goal, deadline, kWhileOthersPlan);
   goal.accept();
   GoalAnswer answer = planner_.plan(
       prepared, deadline, [&goal](const PlanProgress& progress) { goal.update(progress); });
@@ -161,16 +173,15 @@ GoalAnswer PlanServer::planInTurn(ActiveGoal& goal, const PreparedGoal& prepared
   return answer;
 }
 
-GoalAnswer PlanServer::stopped(const ActiveGoal& goal, const Deadline& deadline) const {
+GoalAnswer PlanServer::stopped(const ActiveGoal& goal, const Deadline& deadline,
+                               const std::string& when) const {
   if (stop_all_->requested()) return refusal(Outcome::kCancelled, "the node is shutting down");
   if (deadline.stopRequested()) {
-    return refusal(Outcome::kCancelled, "cancelled before planning began");
+    return refusal(Outcome::kCancelled, "cancelled before planning began, " + when);
   }
-  char text[128];
-  std::snprintf(text, sizeof text,
-                "the time limit passed after %.2f s, before planning began: other goals came first",
-                goal.elapsedSec());
-  return refusal(Outcome::kTimeout, text);
+  char text[64];
+  std::snprintf(text, sizeof text, "the time limit passed after %.2f s, ", goal.elapsedSec());
+  return refusal(Outcome::kTimeout, text + ("before planning began, " + when));
 }
 
 void PlanServer::finish(ActiveGoal& goal, const GoalAnswer& answer) {

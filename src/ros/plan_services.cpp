@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include <boost/make_shared.hpp>
@@ -21,8 +22,12 @@ Outcome outcomeOf(Solvability answer) {
 
 PlanServices::PlanServices(ros::NodeHandle private_node, const SolverRegistry& solvers,
                            const ServerOptions& options, const MapSource& maps,
-                           const GoalPlanner& goal_planner)
-    : solvers_(solvers), options_(options), maps_(maps), goal_planner_(goal_planner) {
+                           const GoalPlanner& goal_planner, std::uint32_t threads)
+    : solvers_(solvers),
+      options_(options),
+      maps_(maps),
+      goal_planner_(goal_planner),
+      spinner_(threads, &queue_) {
   const boost::function<bool(ValidatePlan::Request&, ValidatePlan::Response&)> validate =
       [this](ValidatePlan::Request& request, ValidatePlan::Response& response) {
         return validatePlan(request, response);
@@ -35,9 +40,22 @@ PlanServices::PlanServices(ros::NodeHandle private_node, const SolverRegistry& s
       [this](ListSolvers::Request& request, ListSolvers::Response& response) {
         return listSolvers(request, response);
       };
-  validate_ = private_node.advertiseService("validate_plan", validate);
-  check_ = private_node.advertiseService("check_solvable", check);
   list_ = private_node.advertiseService("list_solvers", list);
+  ros::NodeHandle slow_node(private_node);
+  slow_node.setCallbackQueue(&queue_);
+  validate_ = slow_node.advertiseService("validate_plan", validate);
+  check_ = slow_node.advertiseService("check_solvable", check);
+  spinner_.start();
+}
+
+PlanServices::~PlanServices() { shutdown(); }
+
+void PlanServices::shutdown() {
+  stop_->request();
+  validate_.shutdown();
+  check_.shutdown();
+  queue_.disable();
+  spinner_.stop();
 }
 
 bool PlanServices::validatePlan(ValidatePlan::Request& request,
@@ -45,8 +63,14 @@ bool PlanServices::validatePlan(ValidatePlan::Request& request,
   try {
     // The request outlives this call, so nothing is to be deleted.
     const std::shared_ptr<const nav_msgs::OccupancyGrid> sent(&request.map, [](const void*) {});
-    const PlanningGrid grid = makePlanningGrid(*maps_.choose(sent), options_.goal.occupancy);
+    const Deadline deadline(options_.goal.plan.time_limit_sec, stop_);
+    const PlanningGrid grid =
+        makePlanningGrid(*maps_.choose(sent), options_.goal.occupancy, deadline);
     response.violations = findViolations(request.plan, grid);
+  } catch (const Interrupted&) {
+    response.violations.emplace_back(
+        stop_->requested() ? "not judged: the node is shutting down"
+                           : "not judged: the time limit passed while the map was being read");
   } catch (const std::exception& error) {
     response.violations.emplace_back(error.what());
   }
@@ -62,16 +86,22 @@ bool PlanServices::checkSolvable(CheckSolvable::Request& request,
     goal->map = std::move(request.map);
     goal->robots = std::move(request.robots);
     const GoalOptions options = goal_planner_.readOptions(request.options);
-    const Deadline deadline(options.plan.time_limit_sec);
+    const Deadline deadline(options.plan.time_limit_sec, stop_);
     const PreparedGoal prepared = goal_planner_.prepare(goal, options, deadline);
     const SolvabilityVerdict verdict = split_mapf::checkSolvable(prepared.instance, deadline);
     outcome = outcomeOf(verdict.answer);
-    response.reason = outcome == Outcome::kTimeout ? "undecided within the time limit"
-                                                   : explain(verdict, prepared.instance.grid());
+    if (outcome == Outcome::kTimeout) throw PreparationStopped("while a proof was being searched");
+    response.reason = explain(verdict, prepared.instance.grid());
     for (const std::uint32_t robot : verdict.robots) {
       response.faults.push_back(
           makeFault(prepared.robots.ids[robot], outcome, "is one of the robots that cannot pass"));
     }
+  } catch (const PreparationStopped& stop) {
+    const bool ending = stop_->requested();
+    outcome = ending ? Outcome::kCancelled : Outcome::kTimeout;
+    response.reason = ending ? "undecided: the node is shutting down"
+                             : std::string("undecided within the time limit, which passed ") +
+                                   stop.what();
   } catch (const GoalError& error) {
     outcome = error.outcome();
     response.reason = error.what();

@@ -104,7 +104,8 @@ std::string MapGeometry::describe(Cell cell) const {
   return toString(Cell{cell.x, static_cast<std::int32_t>(info_.height) - 1 - cell.y});
 }
 
-PlanningGrid makePlanningGrid(const nav_msgs::OccupancyGrid& map, const OccupancyRule& rule) {
+PlanningGrid makePlanningGrid(const nav_msgs::OccupancyGrid& map, const OccupancyRule& rule,
+                              const Deadline& deadline) {
   MapGeometry geometry(map.info, map.header.frame_id);
   const std::size_t width = map.info.width;
   const std::size_t height = map.info.height;
@@ -113,14 +114,17 @@ PlanningGrid makePlanningGrid(const nav_msgs::OccupancyGrid& map, const Occupanc
            std::to_string(width) + "x" + std::to_string(height) + " = " +
            std::to_string(width * height) + " are announced");
   }
-  const std::vector<bool> bottom_up = freeCells(map.data, rule);
-  std::vector<bool> top_down(bottom_up.size());
+  requireRule(rule);
+  std::vector<bool> top_down(map.data.size());
   for (std::size_t row = 0; row < height; ++row) {
-    std::copy_n(bottom_up.begin() + static_cast<std::ptrdiff_t>(row * width), width,
-                top_down.begin() + static_cast<std::ptrdiff_t>((height - 1 - row) * width));
+    deadline.require();
+    const std::int8_t* const from = map.data.data() + (height - 1 - row) * width;
+    auto to = top_down.begin() + static_cast<std::ptrdiff_t>(row * width);
+    for (std::size_t x = 0; x < width; ++x, ++to) *to = isFreeOccupancy(from[x], rule);
   }
   try {
-    return {std::make_shared<const Grid>(map.info.width, map.info.height, top_down), geometry};
+    return {std::make_shared<const Grid>(map.info.width, map.info.height, top_down, deadline),
+            geometry};
   } catch (const InputError& error) {
     refuse(error.what());
   }
@@ -131,9 +135,14 @@ nav_msgs::OccupancyGrid toMessage(const PlanningGrid& grid, const ros::Time& sta
   message.header.frame_id = grid.geometry.frame();
   message.header.stamp = stamp;
   message.info = grid.geometry.info();
-  message.data.assign(std::size_t{grid.grid->width()} * grid.grid->height(), 100);
-  for (Vertex v = 0; v < grid.grid->size(); ++v) {
-    message.data[grid.geometry.indexOf(grid.grid->cellOf(v))] = 0;
+  const std::size_t width = grid.grid->width();
+  const std::size_t height = grid.grid->height();
+  message.data.resize(width * height);
+  for (std::size_t row = 0; row < height; ++row) {
+    std::int8_t* const to = message.data.data() + (height - 1 - row) * width;
+    for (std::size_t x = 0; x < width; ++x) {
+      to[x] = grid.grid->numbering().isMarked(row * width + x) ? 0 : 100;
+    }
   }
   return message;
 }

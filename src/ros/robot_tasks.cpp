@@ -10,6 +10,7 @@
 
 #include <tf2/exceptions.h>
 
+#include "split_mapf/core/grid_parts.h"
 #include "split_mapf/ros/orientation.h"
 #include "split_mapf/ros/outcome.h"
 
@@ -177,27 +178,6 @@ class Placement {
   std::vector<IndexedFault> faults_;
 };
 
-/// A number a vertex, equal exactly where a way leads from one to the other.
-std::vector<Vertex> labelComponents(const Graph& graph) {
-  std::vector<Vertex> label(graph.size(), kNoVertex);
-  std::vector<Vertex> open;
-  for (Vertex root = 0; root < graph.size(); ++root) {
-    if (label[root] != kNoVertex) continue;
-    label[root] = root;
-    open.assign(1, root);
-    while (!open.empty()) {
-      const Vertex v = open.back();
-      open.pop_back();
-      for (const Vertex next : graph.neighbours(v)) {
-        if (label[next] != kNoVertex) continue;
-        label[next] = root;
-        open.push_back(next);
-      }
-    }
-  }
-  return label;
-}
-
 }  // namespace
 
 PlacedRobots placeRobots(const std::vector<RobotTask>& tasks, const PlanningGrid& grid,
@@ -209,13 +189,13 @@ PlacedRobots placeRobots(const std::vector<RobotTask>& tasks, const PlanningGrid
 }
 
 void requireReachableGoals(const Instance& instance, const std::vector<std::string>& ids,
-                           const MapGeometry& geometry) {
-  const std::vector<Vertex> label = labelComponents(instance.graph());
+                           const MapGeometry& geometry, const Deadline& deadline) {
+  const GridParts parts(instance.grid(), deadline);
   std::vector<RobotFault> faults;
   for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {
     const Vertex start = instance.start(robot);
     const Vertex goal = instance.goal(robot);
-    if (label[start] == label[goal]) continue;
+    if (parts.partOf(start) == parts.partOf(goal)) continue;
     faults.push_back(makeFault(
         ids[robot], Outcome::kUnreachableGoal,
         "robot '" + ids[robot] + "' at cell " + geometry.describe(instance.grid().cellOf(start)) +

@@ -20,7 +20,10 @@ inline bool isFreeOccupancy(std::int8_t value, const OccupancyRule& rule) {
   return value < 0 ? rule.unknown_is_free : value < rule.occupied_threshold;
 }
 
-/// The same for a whole map, in the order of `values`, as Grid takes it.
+/// @throws OptionError for a threshold outside 1 .. 100.
+void requireRule(const OccupancyRule& rule);
+
+/// isFreeOccupancy() for a whole map, in the order of `values`, as Grid takes it.
 /// @throws OptionError for a threshold outside 1 .. 100. Cost: O(values).
 std::vector<bool> freeCells(const std::vector<std::int8_t>& values, const OccupancyRule& rule);
 

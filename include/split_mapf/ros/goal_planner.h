@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <stdexcept>
 
 #include <split_mapf/PlanLayout.h>
 #include <split_mapf/PlanPathsAction.h>
@@ -32,6 +33,12 @@ struct GoalAnswer {
   PlanLayout layout;  ///< of the result's plan
 };
 
+/// A preparation that its deadline ended. The text says during what: "while the map was being read".
+class PreparationStopped : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// From a goal message to a result message, without the action protocol. Thread-safe.
 class GoalPlanner {
  public:
@@ -44,7 +51,7 @@ class GoalPlanner {
   /// @throws GoalError: INVALID_OPTION, UNKNOWN_SOLVER, INVALID_SPLIT.
   GoalOptions readOptions(const PlanOptions& asked) const;
   /// Places the robots on the goal's map. @throws GoalError with every robot at fault.
-  /// `deadline` bounds the wait for transforms.
+  /// @throws PreparationStopped when the deadline has expired.
   PreparedGoal prepare(const boost::shared_ptr<const PlanPathsGoal>& goal,
                        const GoalOptions& options, const Deadline& deadline) const;
   /// Plans. A cancelled goal that has a plan carries it, with outcome CANCELLED.
@@ -53,6 +60,11 @@ class GoalPlanner {
                   const ProgressCallback& progress) const;
 
  private:
+  /// @param doing  what the deadline would interrupt.
+  PreparedGoal prepareUntil(const boost::shared_ptr<const PlanPathsGoal>& goal,
+                            const GoalOptions& options, const Deadline& deadline,
+                            const char*& doing) const;
+
   const Planner& planner_;
   const ServerOptions& options_;
   const MapSource& maps_;

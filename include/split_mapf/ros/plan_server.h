@@ -20,7 +20,8 @@ namespace split_mapf {
 /// How many goals the plan server takes.
 struct QueueLimits {
   std::uint32_t admitted = 8;  ///< goals in the node at a time; a further one is SERVER_BUSY
-  std::uint32_t running = 1;   ///< goals that plan at a time; the other ones are PENDING
+  /// Goals that plan at a time, and goals that are read at a time; the other ones are PENDING.
+  std::uint32_t running = 1;
 };
 
 /// What the plan server is doing.
@@ -35,9 +36,9 @@ struct PlanServerStatus {
 
 /// The action ~plan_paths: the protocol and nothing else.
 ///
-/// Each admitted goal has a thread. It reads the goal at once, so that a bad one is answered at
-/// once, then waits for its turn in order of arrival (state PENDING; a cancelled goal is RECALLED),
-/// then plans (ACTIVE). Every goal ends in exactly one terminal state, whatever happens.
+/// Each admitted goal has a thread. It reads the goal, no more of them at once than plan at once, so
+/// that a bad one is answered without waiting for those that plan, then waits for its turn in order
+/// of arrival (state PENDING; a cancelled goal is RECALLED), then plans (ACTIVE). Every goal ends in exactly one terminal state, whatever happens.
 class PlanServer {
  public:
   /// @pre planner and publisher outlive this object.
@@ -59,8 +60,12 @@ class PlanServer {
   /// The answer, also when something goes wrong.
   GoalAnswer answerWhatever(ActiveGoal& goal);
   GoalAnswer answer(ActiveGoal& goal);
+  PreparedGoal prepareInTurn(ActiveGoal& goal, const GoalOptions& options,
+                             const Deadline& deadline);
   GoalAnswer planInTurn(ActiveGoal& goal, const PreparedGoal& prepared, const Deadline& deadline);
-  GoalAnswer stopped(const ActiveGoal& goal, const Deadline& deadline) const;
+  /// @param when  what was cut short: "while the map was being read".
+  GoalAnswer stopped(const ActiveGoal& goal, const Deadline& deadline,
+                     const std::string& when) const;
   void finish(ActiveGoal& goal, const GoalAnswer& answer);
   void publishFeedback();
   /// Forgets goals whose threads have ended.
@@ -70,6 +75,7 @@ class PlanServer {
   PlanPublisher& publisher_;
   const QueueLimits limits_;
   const std::shared_ptr<StopFlag> stop_all_ = std::make_shared<StopFlag>();
+  RunSlots preparations_;
   RunSlots slots_;
 
   mutable std::mutex mutex_;

@@ -1,11 +1,17 @@
 #pragma once
 
+#include <cstdint>
+#include <memory>
+
+#include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/service_server.h>
+#include <ros/spinner.h>
 #include <split_mapf/CheckSolvable.h>
 #include <split_mapf/ListSolvers.h>
 #include <split_mapf/ValidatePlan.h>
 
+#include "split_mapf/core/deadline.h"
 #include "split_mapf/ros/goal_planner.h"
 #include "split_mapf/ros/map_source.h"
 #include "split_mapf/ros/options_loader.h"
@@ -13,13 +19,23 @@
 
 namespace split_mapf {
 
-/// The planner node's services: ~validate_plan, ~check_solvable and ~list_solvers.
+/// The planner node's services: ~validate_plan, ~check_solvable and ~list_solvers. The first two may
+/// take long: they have a queue and threads of their own, so that however many callers there are,
+/// goals and cancels are heard, and no more of them run at once than there are threads. Each takes
+/// the time limit of its options, or the server's, at most, counted from when its turn comes.
 class PlanServices {
  public:
-  /// @pre all references outlive this object.
+  /// @param threads  that serve the callers, at least 1. @pre all references outlive this object.
   PlanServices(ros::NodeHandle private_node, const SolverRegistry& solvers,
                const ServerOptions& options, const MapSource& maps,
-               const GoalPlanner& goal_planner);
+               const GoalPlanner& goal_planner, std::uint32_t threads);
+  /// Calls shutdown().
+  ~PlanServices();
+  PlanServices(const PlanServices&) = delete;
+  PlanServices& operator=(const PlanServices&) = delete;
+
+  /// Serves nobody any more; who is being served is told so. Within 200 ms.
+  void shutdown();
 
  private:
   bool validatePlan(ValidatePlan::Request& request, ValidatePlan::Response& response) const;
@@ -30,6 +46,9 @@ class PlanServices {
   const ServerOptions& options_;
   const MapSource& maps_;
   const GoalPlanner& goal_planner_;
+  const std::shared_ptr<StopFlag> stop_ = std::make_shared<StopFlag>();
+  ros::CallbackQueue queue_;
+  ros::AsyncSpinner spinner_;
   ros::ServiceServer validate_;
   ros::ServiceServer check_;
   ros::ServiceServer list_;

@@ -9,6 +9,7 @@
 #include <nav_msgs/OccupancyGrid.h>
 #include <ros/time.h>
 
+#include "split_mapf/core/deadline.h"
 #include "split_mapf/core/grid.h"
 #include "split_mapf/io/occupancy.h"
 
@@ -55,8 +56,9 @@ struct PlanningGrid {
 };
 
 /// Reads a map: one map cell is one planning cell. @throws GoalError (INVALID_MAP) as MapGeometry,
-/// and for data of another size; OptionError for a bad rule. Cost: O(cells).
-PlanningGrid makePlanningGrid(const nav_msgs::OccupancyGrid& map, const OccupancyRule& rule);
+/// and for data of another size; OptionError for a bad rule; Interrupted. Cost: O(cells).
+PlanningGrid makePlanningGrid(const nav_msgs::OccupancyGrid& map, const OccupancyRule& rule,
+                              const Deadline& deadline = {});
 
 /// The planning grid as a map: 0 = free, 100 = blocked.
 nav_msgs::OccupancyGrid toMessage(const PlanningGrid& grid, const ros::Time& stamp);

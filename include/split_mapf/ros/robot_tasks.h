@@ -26,8 +26,8 @@ PlacedRobots placeRobots(const std::vector<RobotTask>& tasks, const PlanningGrid
                          const PoseTransform& transform);
 
 /// @throws GoalError (UNREACHABLE_GOAL) listing every robot that cannot reach its goal even alone.
-/// Cost: O(cells), whatever the number of robots.
+/// Cost: O(cells), whatever the number of robots. @throws Interrupted.
 void requireReachableGoals(const Instance& instance, const std::vector<std::string>& ids,
-                           const MapGeometry& geometry);
+                           const MapGeometry& geometry, const Deadline& deadline = {});
 
 }  // namespace split_mapf
