@@ -29,6 +29,8 @@ constexpr double kLeastReserveSec = 0.5;
 // A piece of a space split has little to do in its region: where it takes more expansions than this
 // besides those of its steps, others help.
 constexpr std::uint64_t kBudgetWithOthers = 60000;
+// Where a table of steps takes more, none is made unless its solver was asked for.
+constexpr std::uint64_t kMostStepTableMebibytes = 192;
 
 }  // namespace
 
@@ -87,6 +89,11 @@ void PlanRun::runStages() {
 }
 
 void PlanRun::refineWithin(double seconds) {
+  if (stepTablesAreTooLarge()) {
+    report_.message += "; not refined: a table of steps would take " +
+                       std::to_string(stepTableMebibytes()) + " MiB";
+    return;
+  }
   log_.enterStage("refine");
   RefineOptions options;
   options.objective = report_.objective;
@@ -164,6 +171,16 @@ bool PlanRun::mustChoose() const {
 void PlanRun::choose() {
   if (!mustChoose()) return;
   log_.enterStage("choose");
+  const std::vector<std::string> known = solvers_.names();
+  const bool has_last_resort = std::find(known.begin(), known.end(), kLastResort) != known.end();
+  if (request_.solver == "auto" && has_last_resort && stepTablesAreTooLarge()) {
+    request_.solver = kLastResort;
+    request_.solver_options.values = {{"polish", "0"}};
+    if (request_.split.kind == SplitSpec::Kind::kAuto) request_.split = SplitSpec{};
+    choice_ = " (chosen: a table of steps would take " + std::to_string(stepTableMebibytes()) +
+              " MiB)";
+    return;
+  }
   features_ = measureFeatures(instance_, shortest_paths_, deadline_);
   shortest_paths_ = {};
   AutoQuestion question;
@@ -182,6 +199,15 @@ void PlanRun::choose() {
   }
   if (request_.split.kind == SplitSpec::Kind::kAuto) request_.split = parseSplitSpec(choice.split);
   choice_ = " (chosen: " + choice.reason + ")";
+}
+
+std::uint64_t PlanRun::stepTableMebibytes() const {
+  const std::uint64_t words = report_.makespan_lower_bound / 64 + 1;
+  return instance_.graph().size() * words * sizeof(std::uint64_t) >> 20U;
+}
+
+bool PlanRun::stepTablesAreTooLarge() const {
+  return stepTableMebibytes() > kMostStepTableMebibytes;
 }
 
 void PlanRun::keepTimeForLastResort(double expected_sec) {
@@ -301,6 +327,13 @@ bool PlanRun::callAnother(const RepairLoop::Outcome& outcome) {
     const auto is_other = [](const std::string& name) { return name != kLastResort; };
     const auto last_resort = std::stable_partition(others_->begin(), others_->end(), is_other);
     if (late) others_->erase(others_->begin(), last_resort);
+    if (stepTablesAreTooLarge()) {
+      const auto keeps_tables = [](const std::string& name) {
+        return name != "ecbs" && name != kLastResort;
+      };
+      others_->erase(std::remove_if(others_->begin(), others_->end(), keeps_tables),
+                     others_->end());
+    }
     solve_deadline_ = deadline_;
   }
   if (others_->empty()) return false;
@@ -309,6 +342,7 @@ bool PlanRun::callAnother(const RepairLoop::Outcome& outcome) {
   request_.solver = others_->back();
   others_->pop_back();
   request_.split = SplitSpec{};
+  request_.solver_options.values.clear();
   request_.solver_options.expansion_limit = 0;
   report_.subproblems.clear();  // they tell of the plan, and this one came to nothing
   return true;

@@ -250,6 +250,73 @@ TEST(Planner, HandsOutEachBetterPlanAsItIsFound) {
   EXPECT_EQ(better.back().plan->paths, report.plan->paths);
 }
 
+TEST(Planner, GivesARobotThatIsAloneAShortestPath) {
+  Executor executor(1);
+  const auto grid = test::serpentineGrid(200);
+  const Instance instance =
+      Instance::fromVertices(grid, {0}, {static_cast<Vertex>(grid->size() - 1)});
+  const PlanReport report =
+      Planner(builtinSolvers(), executor).plan(instance, requestFor("auto", "auto"), Deadline());
+  ASSERT_EQ(report.termination, Termination::kSolved);
+  EXPECT_TRUE(report.optimal);
+  EXPECT_EQ(report.makespan, instance.shortestLength(0));
+  ASSERT_EQ(report.subproblems.size(), 1U);
+  EXPECT_EQ(report.subproblems[0].solver, "shortest_path");
+}
+
+TEST(Planner, PlansOnAHugeMapNearTheWays) {
+  Executor executor(2);
+  const std::uint32_t side = 1800;
+  const auto grid = std::make_shared<const Grid>(
+      side, side, std::vector<bool>(std::size_t{side} * side, true));
+  const Instance instance(grid, {{0, 0}, {1799, 0}, {5, 5}}, {{1799, 0}, {0, 0}, {9, 1700}});
+  const PlanReport report =
+      Planner(builtinSolvers(), executor).plan(instance, requestFor("auto", "auto"), Deadline());
+  ASSERT_EQ(report.termination, Termination::kSolved);
+  EXPECT_NE(report.message.find("within 32 steps"), std::string::npos) << report.message;
+  EXPECT_EQ(report.makespan_lower_bound, 1799U);
+  EXPECT_EQ(report.proved_lower_bound, 1799);
+  EXPECT_TRUE(validate(instance, *report.plan).empty());
+}
+
+/// An open hall, and along its top a corridor of one cell's width that leads into it at `gap`.
+std::shared_ptr<const Grid> hallWithCorridor(std::uint32_t side, std::uint32_t gap) {
+  std::vector<bool> free(std::size_t{side} * side, true);
+  for (std::uint32_t x = 0; x < side; ++x) free[side + x] = x == gap;
+  return std::make_shared<const Grid>(side, side, free);
+}
+
+TEST(Planner, LooksFurtherAroundTheWaysOnAHugeMap) {
+  Executor executor(2);
+  const Instance instance(hallWithCorridor(1600, 50), {{0, 0}, {10, 0}}, {{10, 0}, {0, 0}});
+  const PlanReport report =
+      Planner(builtinSolvers(), executor).plan(instance, requestFor("lacam", "none"), Deadline(30));
+  ASSERT_EQ(report.termination, Termination::kSolved) << report.message;
+  EXPECT_NE(report.message.find("within 256 steps"), std::string::npos) << report.message;
+  EXPECT_EQ(report.proved_lower_bound, 10);
+  EXPECT_FALSE(report.optimal);  // it is, but only the cells around the ways say so
+  EXPECT_TRUE(validate(instance, *report.plan).empty());
+}
+
+TEST(Planner, RefusesOnAllOfAHugeMapOnly) {
+  Executor executor(2);
+  const Instance instance(hallWithCorridor(1600, 1600), {{0, 0}, {10, 0}}, {{10, 0}, {0, 0}});
+  const PlanReport report =
+      Planner(builtinSolvers(), executor).plan(instance, requestFor("auto", "auto"), Deadline(60));
+  EXPECT_EQ(report.termination, Termination::kUnsolvable) << report.message;
+  EXPECT_NE(report.message.find("1600"), std::string::npos) << report.message;
+}
+
+TEST(Planner, SaysInWhichStageTheLimitCame) {
+  Executor executor(1);
+  const Instance instance = crossing();
+  const PlanReport late =
+      Planner(builtinSolvers(), executor).plan(instance, requestFor("ecbs", "none"), Deadline(0));
+  EXPECT_EQ(late.termination, Termination::kTimeout);
+  EXPECT_EQ(late.message,
+            "no plan within the time limit, which passed while distances were being searched");
+}
+
 TEST(Planner, NamesTheRobotThatIsCutOff) {
   Executor executor(1);
   const Instance instance = test::instanceFromAscii({"ab.#."}, {"b..#a"});
