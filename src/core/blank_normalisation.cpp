@@ -10,8 +10,7 @@ namespace {
 /// it is free, since all robots in between have been placed below.
 class Sinking {
  public:
-  Sinking(const PartTree& tree, const std::vector<std::uint32_t>& robots,
-          const Deadline& deadline)
+  Sinking(const PartTree& tree, const std::vector<std::uint32_t>& robots, const Deadline& deadline)
       : placed_(tree.size(), kNoRobot) {
     SparsePoll poll(deadline);
     std::vector<std::uint32_t> path;

@@ -65,8 +65,8 @@ Graph Grid::buildGraph(const Deadline& deadline) const {
   for (Vertex v = 0; v < size(); ++v) {
     poll();
     const Cell c = cellOf(v);
-    for (const Cell next : {Cell{c.x, c.y - 1}, Cell{c.x - 1, c.y}, Cell{c.x + 1, c.y},
-                            Cell{c.x, c.y + 1}}) {
+    for (const Cell next :
+         {Cell{c.x, c.y - 1}, Cell{c.x - 1, c.y}, Cell{c.x + 1, c.y}, Cell{c.x, c.y + 1}}) {
       const Vertex u = vertexAt(next);
       if (u != kNoVertex) targets.push_back(u);
     }

@@ -26,8 +26,8 @@ std::vector<bool> markBand(const Grid& grid, const std::vector<Path>& ways, std:
   for (std::uint32_t step = 0; step < margin && !edge.empty(); ++step) {
     const std::vector<Cell> last = std::exchange(edge, {});
     for (const Cell c : last) {
-      for (const Cell next : {Cell{c.x, c.y - 1}, Cell{c.x - 1, c.y}, Cell{c.x + 1, c.y},
-                              Cell{c.x, c.y + 1}}) {
+      for (const Cell next :
+           {Cell{c.x, c.y - 1}, Cell{c.x - 1, c.y}, Cell{c.x + 1, c.y}, Cell{c.x, c.y + 1}}) {
         mark(next);
       }
     }
@@ -42,8 +42,7 @@ WayBand::WayBand(const Instance& instance, const std::vector<Path>& ways, std::u
     : map_(instance.sharedGrid()) {
   SparsePoll poll(deadline);
   const std::vector<bool> marked = markBand(*map_, ways, margin, poll);
-  const auto grid =
-      std::make_shared<const Grid>(map_->width(), map_->height(), marked, deadline);
+  const auto grid = std::make_shared<const Grid>(map_->width(), map_->height(), marked, deadline);
   std::vector<Cell> starts;
   std::vector<Cell> goals;
   for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {

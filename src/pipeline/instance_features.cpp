@@ -171,7 +171,8 @@ InstanceFeatures measureFeatures(const Instance& instance, const std::vector<Pat
   features.cells = instance.graph().size();
   features.makespan_bound = makespanLowerBound(instance);
   features.sum_bound = sumOfCostsLowerBound(instance);
-  const std::vector<std::uint64_t> pairs = SharedWalk(features.cells, paths).findConflicts(deadline);
+  const std::vector<std::uint64_t> pairs =
+      SharedWalk(features.cells, paths).findConflicts(deadline);
   features.conflicting = pairs.size();
   features.largest_group = largestGroup(features.robots, pairs);
   const double times = static_cast<double>(features.robots) * features.makespan_bound;

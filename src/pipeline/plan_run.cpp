@@ -143,7 +143,8 @@ bool PlanRun::reportUnsolvable() {
 }
 
 bool PlanRun::acceptShortestPath() {
-  const bool is_open = report_.solver == "auto" && (report_.split == "auto" || report_.split == "none");
+  const bool is_open =
+      report_.solver == "auto" && (report_.split == "auto" || report_.split == "none");
   if (instance_.robots() > 1 || !is_open) return false;
   log_.enterStage("validate");
   SubproblemReport row;
@@ -177,8 +178,8 @@ void PlanRun::choose() {
     request_.solver = kLastResort;
     request_.solver_options.values = {{"polish", "0"}};
     if (request_.split.kind == SplitSpec::Kind::kAuto) request_.split = SplitSpec{};
-    choice_ = " (chosen: a table of steps would take " + std::to_string(stepTableMebibytes()) +
-              " MiB)";
+    choice_ =
+        " (chosen: a table of steps would take " + std::to_string(stepTableMebibytes()) + " MiB)";
     return;
   }
   features_ = measureFeatures(instance_, shortest_paths_, deadline_);

@@ -99,9 +99,9 @@ bool PlanServices::checkSolvable(CheckSolvable::Request& request,
   } catch (const PreparationStopped& stop) {
     const bool ending = stop_->requested();
     outcome = ending ? Outcome::kCancelled : Outcome::kTimeout;
-    response.reason = ending ? "undecided: the node is shutting down"
-                             : std::string("undecided within the time limit, which passed ") +
-                                   stop.what();
+    response.reason =
+        ending ? "undecided: the node is shutting down"
+               : std::string("undecided within the time limit, which passed ") + stop.what();
   } catch (const GoalError& error) {
     outcome = error.outcome();
     response.reason = error.what();

@@ -267,8 +267,8 @@ TEST(Planner, GivesARobotThatIsAloneAShortestPath) {
 TEST(Planner, PlansOnAHugeMapNearTheWays) {
   Executor executor(2);
   const std::uint32_t side = 1800;
-  const auto grid = std::make_shared<const Grid>(
-      side, side, std::vector<bool>(std::size_t{side} * side, true));
+  const auto grid =
+      std::make_shared<const Grid>(side, side, std::vector<bool>(std::size_t{side} * side, true));
   const Instance instance(grid, {{0, 0}, {1799, 0}, {5, 5}}, {{1799, 0}, {0, 0}, {9, 1700}});
   const PlanReport report =
       Planner(builtinSolvers(), executor).plan(instance, requestFor("auto", "auto"), Deadline());

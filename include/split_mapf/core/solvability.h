@@ -104,11 +104,12 @@ class SolvabilityChecker {
 /// The same for one check. Cost: O(V + E), without recursion.
 SolvabilityVerdict checkSolvable(const Graph& graph, const std::vector<Vertex>& starts,
                                  const std::vector<Vertex>& goals, const Deadline& deadline = {});
-/// Whether each robot's goal lies in the part of its start; the verdict is kDifferentComponents where
-/// not. Cost: O(cells), without the graph of the grid. @throws Interrupted.
+/// Whether each robot's goal lies in the part of its start; the verdict is kDifferentComponents
+/// where not. Cost: O(cells), without the graph of the grid. @throws Interrupted.
 SolvabilityVerdict checkReachable(const Instance& instance, const Deadline& deadline = {});
-/// checkSolvable() for an instance. On a huge grid the cells around the robots' shortest ways are looked at
-/// first: what can be solved there can be solved, and takes a small part of memory and time.
+/// checkSolvable() for an instance. On a huge grid the cells around the robots' shortest ways are
+/// looked at first: what can be solved there can be solved, and takes a small part of memory and
+/// time.
 SolvabilityVerdict checkSolvable(const Instance& instance, const Deadline& deadline = {});
 
 /// The verdict as a sentence that a person can act on, naming robots and cells, the number of empty

@@ -33,7 +33,8 @@ struct GoalAnswer {
   PlanLayout layout;  ///< of the result's plan
 };
 
-/// A preparation that its deadline ended. The text says during what: "while the map was being read".
+/// A preparation that its deadline ended. The text says during what: "while the map was being
+/// read".
 class PreparationStopped : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

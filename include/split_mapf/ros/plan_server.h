@@ -36,9 +36,10 @@ struct PlanServerStatus {
 
 /// The action ~plan_paths: the protocol and nothing else.
 ///
-/// Each admitted goal has a thread. It reads the goal, no more of them at once than plan at once, so
-/// that a bad one is answered without waiting for those that plan, then waits for its turn in order
-/// of arrival (state PENDING; a cancelled goal is RECALLED), then plans (ACTIVE). Every goal ends in exactly one terminal state, whatever happens.
+/// Each admitted goal has a thread. It reads the goal, no more of them at once than plan at once,
+/// so that a bad one is answered without waiting for those that plan, then waits for its turn in
+/// order of arrival (state PENDING; a cancelled goal is RECALLED), then plans (ACTIVE). Every goal
+/// ends in exactly one terminal state, whatever happens.
 class PlanServer {
  public:
   /// @pre planner and publisher outlive this object.

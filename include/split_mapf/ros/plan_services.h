@@ -19,16 +19,16 @@
 
 namespace split_mapf {
 
-/// The planner node's services: ~validate_plan, ~check_solvable and ~list_solvers. The first two may
-/// take long: they have a queue and threads of their own, so that however many callers there are,
-/// goals and cancels are heard, and no more of them run at once than there are threads. Each takes
-/// the time limit of its options, or the server's, at most, counted from when its turn comes.
+/// The planner node's services: ~validate_plan, ~check_solvable and ~list_solvers. The first two
+/// may take long: they have a queue and threads of their own, so that however many callers there
+/// are, goals and cancels are heard, and no more of them run at once than there are threads. Each
+/// takes the time limit of its options, or the server's, at most, counted from when its turn comes.
 class PlanServices {
  public:
   /// @param threads  that serve the callers, at least 1. @pre all references outlive this object.
   PlanServices(ros::NodeHandle private_node, const SolverRegistry& solvers,
-               const ServerOptions& options, const MapSource& maps,
-               const GoalPlanner& goal_planner, std::uint32_t threads);
+               const ServerOptions& options, const MapSource& maps, const GoalPlanner& goal_planner,
+               std::uint32_t threads);
   /// Calls shutdown().
   ~PlanServices();
   PlanServices(const PlanServices&) = delete;
