@@ -16,6 +16,6 @@ foreach(name plan_server queue)
   target_compile_options(${name}_rostest PRIVATE ${SPLIT_MAPF_WARNINGS})
 endforeach()
 
-foreach(name client replay recording lifecycle sim_time launch)
+foreach(name client replay recording lifecycle sim_time launch big_maps)
   add_rostest(test/ros/${name}.test DEPENDENCIES planner_node replay_node split_mapf)
 endforeach()

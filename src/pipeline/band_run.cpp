@@ -101,8 +101,8 @@ std::optional<PlanReport> BandRun::planNearWays() {
     if (!isFinal(report)) continue;
     putOnMap(report, band);
     if (report.plan) {
-      report.message += "; on the cells within " + std::to_string(margin) +
-                        " steps of the robots' shortest ways";
+      report.message +=
+          "; on the cells within " + std::to_string(margin) + " steps of the robots' shortest ways";
     }
     return report;
   }

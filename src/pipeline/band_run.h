@@ -43,8 +43,8 @@ class BandRun {
   const Deadline& deadline_;
   const PlanListener& listener_;
   RunLog log_;
-  double bound_ = 0;       ///< of the objective, from the shortest ways
-  double begin_sec_ = 0;   ///< of the part that is planned on
+  double bound_ = 0;      ///< of the objective, from the shortest ways
+  double begin_sec_ = 0;  ///< of the part that is planned on
 };
 
 }  // namespace split_mapf
