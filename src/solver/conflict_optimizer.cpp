@@ -64,7 +64,9 @@ SolveResult ConflictOptimizerSolver::solve(const Instance& instance,
   effort.hasty = objective_ == Objective::kMakespan;
   // Longer than this no robot has to travel on any but pathological graphs.
   const std::uint64_t longest = std::uint64_t{4} * (bound + instance.graph().size());
-  std::uint64_t slack = objective_ == Objective::kMakespan ? 0 : settings_.slack;
+  // On few cells the first horizon would be longer, and none would be tried.
+  std::uint64_t slack =
+      objective_ == Objective::kMakespan ? 0 : std::min(settings_.slack, longest - bound);
   for (std::uint64_t step = 1; bound + slack <= longest; slack += step, step += (step + 3) / 4) {
     ++result.high_level_nodes;
     const auto outcome = placement.run(static_cast<std::uint32_t>(bound + slack), effort, deadline);

@@ -7,6 +7,7 @@
 #include "split_mapf/core/error.h"
 #include "split_mapf/solver/conflict_optimizer.h"
 #include "split_mapf/solver/ecbs.h"
+#include "split_mapf/solver/joint.h"
 #include "split_mapf/solver/lacam.h"
 #include "split_mapf/solver/prioritized.h"
 
@@ -66,6 +67,7 @@ const SolverRegistry& builtinSolvers() {
     SolverRegistry solvers;
     solvers.add(ConflictOptimizerSolver::info());
     solvers.add(EcbsSolver::info());
+    solvers.add(JointSolver::info());
     solvers.add(LacamSolver::info());
     solvers.add(PrioritizedSolver::info());
     return solvers;

@@ -46,6 +46,22 @@ TEST(ConflictOptimizer, ThreadsDoNotChangeThePlan) {
   }
 }
 
+TEST(ConflictOptimizer, ARobotAtHomeOnTheOnlyCellIsNoMatterForFailure) {
+  const Instance instance = test::instanceFromAscii({"a"}, {"a"});
+  const SolveResult result = solve(instance, Objective::kSumOfCosts);
+  ASSERT_EQ(result.termination, Termination::kSolved) << result.message;
+  EXPECT_EQ(sumOfCostsOf(*result.plan), 0U);
+  EXPECT_TRUE(result.optimal);
+}
+
+TEST(ConflictOptimizer, ASlackBeyondAllHorizonsIsCut) {
+  const Instance instance = test::instanceFromAscii({"ab."}, {".ab"});
+  const SolveResult result =
+      solve(instance, Objective::kSumOfCosts, {{"slack", "999999999999999999"}});
+  ASSERT_EQ(result.termination, Termination::kSolved) << result.message;
+  EXPECT_TRUE(validate(instance, *result.plan).empty());
+}
+
 TEST(ConflictOptimizer, AHorizonOutOfReachGivesWayToALongerOne) {
   // One of the two has to wait in the siding: the bound of 4 steps can't be kept.
   const Instance instance =

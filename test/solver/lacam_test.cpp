@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "solver/lacam/explored.h"
+#include "solver/search/explored.h"
 #include "solver/lacam/guidance.h"
 #include "solver/lacam/pibt.h"
 #include "split_mapf/core/random.h"

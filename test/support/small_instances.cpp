@@ -22,27 +22,47 @@ std::uint32_t drawRobots(RandomEngine& engine, std::uint32_t free_cells) {
   return std::max(drawBetween(engine, 1, most), drawBetween(engine, 1, most));
 }
 
-}  // namespace
-
-Instance smallInstance(std::uint64_t seed) {
-  RandomEngine engine(seed);
-  const std::uint32_t width = drawBetween(engine, 3, 5);
-  const std::uint32_t height = drawBetween(engine, 3, 5);
+std::shared_ptr<const Grid> drawGrid(RandomEngine& engine, std::uint32_t width,
+                                     std::uint32_t height) {
   std::vector<std::uint32_t> order(std::size_t{width} * height);
   std::iota(order.begin(), order.end(), 0U);
   shuffle(order, engine);
   order.resize(drawBetween(engine, 0, width * height / 3));
   std::vector<bool> free(std::size_t{width} * height, true);
   for (const std::uint32_t blocked : order) free[blocked] = false;
-  auto grid = std::make_shared<const Grid>(width, height, free);
+  return std::make_shared<const Grid>(width, height, free);
+}
+
+Instance drawInstance(RandomEngine& engine, std::shared_ptr<const Grid> grid,
+                      std::uint32_t robots) {
   std::vector<Vertex> cells(grid->size());
   std::iota(cells.begin(), cells.end(), 0U);
-  const std::uint32_t robots = drawRobots(engine, grid->size());
   shuffle(cells, engine);
   const std::vector<Vertex> starts(cells.begin(), cells.begin() + robots);
   shuffle(cells, engine);
   const std::vector<Vertex> goals(cells.begin(), cells.begin() + robots);
   return Instance::fromVertices(std::move(grid), starts, goals);
+}
+
+}  // namespace
+
+Instance smallInstance(std::uint64_t seed) {
+  RandomEngine engine(seed);
+  const std::uint32_t width = drawBetween(engine, 3, 5);
+  const std::uint32_t height = drawBetween(engine, 3, 5);
+  auto grid = drawGrid(engine, width, height);
+  const std::uint32_t robots = drawRobots(engine, grid->size());
+  return drawInstance(engine, std::move(grid), robots);
+}
+
+Instance crowdedInstance(std::uint64_t seed) {
+  RandomEngine engine(seed);
+  const std::uint32_t width = drawBetween(engine, 2, 4);
+  const std::uint32_t height = drawBetween(engine, 2, 4);
+  auto grid = drawGrid(engine, width, height);
+  const std::uint32_t most = grid->size() <= 6 ? 5 : grid->size() <= 9 ? 4 : 3;
+  const std::uint32_t robots = std::min(grid->size() - 1, drawBetween(engine, 2, most));
+  return drawInstance(engine, std::move(grid), robots);
 }
 
 std::string describe(const Instance& instance) {

@@ -13,6 +13,9 @@ namespace split_mapf::test {
 /// gives the same instance.
 Instance smallInstance(std::uint64_t seed);
 
+/// The same with 2 to 5 robots on 2x2 to 4x4 cells: more often a knot, sooner solved by the oracle.
+Instance crowdedInstance(std::uint64_t seed);
+
 /// What the generator makes: nobody is cut off.
 Instance generatedInstance(const GeneratorOptions& options);
 /// The same for a random square map.

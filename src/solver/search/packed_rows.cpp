@@ -1,4 +1,4 @@
-#include "solver/lacam/packed_rows.h"
+#include "solver/search/packed_rows.h"
 
 #include <algorithm>
 #include <cstring>

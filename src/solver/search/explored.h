@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "solver/lacam/packed_rows.h"
+#include "solver/search/packed_rows.h"
 #include "split_mapf/core/graph.h"
 
 namespace split_mapf {

@@ -1,4 +1,4 @@
-#include "solver/lacam/explored.h"
+#include "solver/search/explored.h"
 
 namespace split_mapf {
 namespace {
