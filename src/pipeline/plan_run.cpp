@@ -1,6 +1,7 @@
 #include "pipeline/plan_run.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <new>
 #include <stdexcept>
@@ -18,7 +19,14 @@ namespace {
 
 // Robots whose conflicts hang together up to this number are worth a search for the optimum.
 constexpr std::uint32_t kSmallKnot = 20;
-constexpr std::uint64_t kOptimumExpansions = 50000;
+struct OptimumTurn {
+  const char* solver;
+  std::uint64_t expansions;
+};
+// Each some hundredths of a second: joint moves are many times as fast as states of paths.
+constexpr std::array<OptimumTurn, 2> kOptimumTurns = {{{"ecbs", 50000}, {"joint", 1000000}}};
+// More robots than that are measured only where `auto` has to choose.
+constexpr std::uint32_t kMostToMeasure = 200;
 // Passes across the seams where nothing is said and the cost is above its bound.
 constexpr std::uint32_t kReplanPasses = 3;
 // The last resort is kept so many times what it is expected to take, at most a share of what is
@@ -95,13 +103,32 @@ void PlanRun::refineWithin(double seconds) {
     return;
   }
   log_.enterStage("refine");
+  if (!features_ && report_.robots <= kMostToMeasure) features_ = measureFeatures(instance_);
   RefineOptions options;
   options.objective = report_.objective;
   options.seed = report_.seed;
   options.threads = report_.threads;
   options.solvers = &solvers_;
+  options.lower_bound = static_cast<std::uint64_t>(report_.proved_lower_bound);
+  options.small_knot = features_ && features_->largest_group <= kSmallKnot;
+  std::uint64_t least_sum = 0;
+  options.proved = [&](Objective objective, std::uint64_t bound) {
+    if (objective == report_.objective) {
+      raiseBound(bound, "joint");
+    } else {
+      least_sum = bound;
+    }
+  };
   refine(instance_, *report_.plan, options, executor_, deadline_.within(seconds),
          [this](const Plan& better) { accept(better); });
+  if (report_.objective == Objective::kSumOfCosts || !report_.optimal) return;
+  refined_sum_ = "; its makespan is proved, refinement went on with the sum of costs: " +
+                 std::to_string(sum_at_proof_.value_or(report_.sum_of_costs)) + " then, " +
+                 std::to_string(report_.sum_of_costs) + " now";
+  if (report_.sum_of_costs <= std::max(least_sum, report_.sum_of_costs_lower_bound)) {
+    refined_sum_ += ", the least within it";
+  }
+  judge();
 }
 
 bool PlanRun::computeDistances() {
@@ -221,29 +248,33 @@ void PlanRun::keepTimeForLastResort(double expected_sec) {
 void PlanRun::searchOptimum() {
   const bool wanted = report_.solver == "auto" && !report_.optimal && features_ &&
                       features_->largest_group <= kSmallKnot;
-  const std::vector<std::string> known = solvers_.names();
-  if (!wanted || std::find(known.begin(), known.end(), "ecbs") == known.end()) return;
+  if (!wanted) return;
   log_.enterStage("optimum");
-  SolverOptions options;
-  options.objective = report_.objective;
-  options.suboptimality = 1;
-  options.seed = report_.seed;
-  options.expansion_limit = kOptimumExpansions;
-  SolveResult result = solvers_.create("ecbs", options)->solve(instance_, deadline_);
-  const auto bound = static_cast<double>(result.lower_bound);
-  const bool raised = bound > report_.proved_lower_bound;
-  if (raised) {
-    report_.proved_lower_bound = bound;
-    report_.certified_by = "ecbs";
-    log_.setLowerBound(bound);
+  const std::vector<std::string> known = solvers_.names();
+  for (const OptimumTurn& turn : kOptimumTurns) {
+    if (report_.optimal || std::find(known.begin(), known.end(), turn.solver) == known.end()) {
+      continue;
+    }
+    SolverOptions options;
+    options.objective = report_.objective;
+    options.suboptimality = 1;
+    options.seed = report_.seed;
+    options.expansion_limit = turn.expansions;
+    SolveResult result = solvers_.create(turn.solver, options)->solve(instance_, deadline_);
+    raiseBound(result.lower_bound, turn.solver);
+    if (result.plan &&
+        costOf(*result.plan, report_.objective) < costOf(*report_.plan, report_.objective)) {
+      accept(std::move(*result.plan));
+    }
   }
-  if (result.plan &&
-      costOf(*result.plan, report_.objective) < costOf(*report_.plan, report_.objective)) {
-    accept(std::move(*result.plan));
-    return;
-  }
+}
+
+void PlanRun::raiseBound(std::uint64_t bound, const std::string& by) {
+  if (static_cast<double>(bound) <= report_.proved_lower_bound) return;
+  report_.proved_lower_bound = static_cast<double>(bound);
+  report_.certified_by = by;
+  log_.setLowerBound(report_.proved_lower_bound);
   judge();
-  if (!raised) return;
   report_.trace.push_back(
       {log_.elapsedSec(), report_.makespan, report_.sum_of_costs, report_.proved_lower_bound});
 }
@@ -405,6 +436,7 @@ void PlanRun::accept(Plan plan) {
 void PlanRun::judge() {
   const auto cost = static_cast<double>(costOf(*report_.plan, report_.objective));
   report_.optimal = cost <= report_.proved_lower_bound;
+  if (report_.optimal && !sum_at_proof_) sum_at_proof_ = report_.sum_of_costs;
   if (report_.optimal && report_.certified_by.empty()) report_.certified_by = "shortest_paths";
   report_.message = "solved by " + request_.solver;
   if (report_.subproblems.size() > 1) {
@@ -416,7 +448,7 @@ void PlanRun::judge() {
       });
   if (helped > 0) report_.message += ", " + std::to_string(helped) + " of them by other solvers";
   if (!solver_said_.empty()) report_.message += "; " + solver_said_;
-  report_.message += choice_;
+  report_.message += choice_ + refined_sum_;
 }
 
 void PlanRun::interrupt() {

@@ -61,6 +61,8 @@ class PlanRun {
   /// @pre the lower bounds are set.
   std::uint64_t stepTableMebibytes() const;
   bool stepTablesAreTooLarge() const;
+  /// Takes note of what somebody has proved for the objective [steps]. @pre there is a plan.
+  void raiseBound(std::uint64_t bound, const std::string& by);
   void interrupt();
   TimeSplitOptions timeSplitOptions() const;
   SpaceSplitOptions spaceSplitOptions() const;
@@ -83,6 +85,8 @@ class PlanRun {
   std::string solver_said_;                         ///< of the plan of an unsplit instance
   std::optional<std::vector<std::string>> others_;  ///< that `auto` can still call, last first
   std::string choice_;                              ///< why, for people
+  std::optional<std::uint64_t> sum_at_proof_;       ///< when the plan was proved optimal
+  std::string refined_sum_;                         ///< what became of it, for people
   PlanReport report_;
 };
 

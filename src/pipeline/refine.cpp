@@ -12,7 +12,9 @@
 #include "pipeline/annealing.h"
 #include "pipeline/incumbent.h"
 #include "pipeline/refine_worker.h"
+#include "pipeline/settlement.h"
 #include "pipeline/window_descent.h"
+#include "solver/joint/group_search.h"
 #include "solver/search/placement.h"
 #include "solver/search/retiming.h"
 
@@ -26,6 +28,11 @@ constexpr std::uint64_t kFirstPatience = 5;
 // Windows that a plan is cut into, and what a window may take for a unit of patience.
 constexpr std::array<std::uint32_t, 4> kWindowCuts = {1, 2, 4, 8};
 constexpr std::uint64_t kWindowExpansions = 20000;
+// Fewer robots soon come to where neighbourhoods gain nothing any more: after so many rounds in
+// vain the next ones try other ways. Larger teams gain more by going on.
+constexpr std::uint32_t kSmallTeam = 100;
+constexpr std::uint32_t kRoundsInVain = 4;
+constexpr std::uint64_t kPatienceElsewhere = 20;
 
 /// One call of refine().
 class Refinement {
@@ -38,6 +45,7 @@ class Refinement {
         deadline_(deadline),
         improved_(improved),
         annealing_(deadline),
+        settlement_(instance, options.objective, options.lower_bound),
         plan_(std::move(plan)),
         cost_(sumOfCostsOf(plan_)) {
     if (options.solvers == nullptr) return;
@@ -50,19 +58,18 @@ class Refinement {
   }
 
   Plan run() {
-    const std::uint64_t least = sumOfCostsLowerBound(instance_);
-    while (!deadline_.expired()) {
+    while (!deadline_.expired() && !settlement_.isBest(plan_)) {
       const bool may_descend = mayDescend();
-      if (may_descend && descents_sec_ <= search_sec_) {
+      if (maySettle() && settling_sec_ <= descents_sec_ + search_sec_) {
+        timed(settling_sec_, [this] { settle(); });
+      } else if (may_descend && descents_sec_ <= search_sec_) {
         timed(descents_sec_, [this] {
           if (!descend()) shortenSomeWindow();
         });
-      } else if (cost_ > least) {
-        timed(search_sec_, [this] { searchNeighbourhoods(); });
-      } else if (may_descend) {
+      } else if (may_descend && cost_ <= settlement_.leastSum()) {
         search_sec_ = descents_sec_;  // nothing else is left to do
       } else {
-        break;
+        timed(search_sec_, [this] { search(); });
       }
     }
     return std::move(plan_);
@@ -70,9 +77,9 @@ class Refinement {
 
  private:
   bool mayDescend() const {
-    return options_.objective == Objective::kMakespan &&
-           makespanOf(plan_) > makespanLowerBound(instance_);
+    return options_.objective == Objective::kMakespan && !settlement_.isOptimal(plan_);
   }
+  bool maySettle() const { return options_.small_knot && settlement_.isOpen(plan_); }
 
   template <typename Work>
   static void timed(double& seconds, Work work) {
@@ -87,20 +94,56 @@ class Refinement {
     improved_(plan_);
   }
 
+  /// One that the workers do not know of.
+  void takeElsewhere(Plan plan) {
+    workers_.clear();
+    in_vain_ = 0;
+    take(std::move(plan));
+  }
+
+  /// A turn of the search over joint states; others of the executor's callers get theirs before it.
+  void settle() {
+    const std::uint64_t bound = settlement_.lowerBound();
+    const std::uint64_t least_sum = settlement_.leastSum();
+    std::optional<Plan> better;
+    std::vector<Executor::Job> jobs(1);
+    jobs[0].run = [&] { better = settlement_.takeTurn(plan_, deadline_); };
+    executor_.run(std::move(jobs), 1, deadline_);
+    if (options_.proved && settlement_.lowerBound() > bound) {
+      options_.proved(options_.objective, settlement_.lowerBound());
+    }
+    if (options_.proved && options_.objective == Objective::kMakespan &&
+        settlement_.leastSum() > least_sum) {
+      options_.proved(Objective::kSumOfCosts, settlement_.leastSum());
+    }
+    if (better) takeElsewhere(std::move(*better));
+  }
+
+  bool descend() {
+    std::optional<Plan> sooner = descendFrom(plan_, patience_);
+    if (!sooner) {
+      patience_ *= 2;
+      return false;
+    }
+    takeElsewhere(std::move(*sooner));
+    return true;
+  }
+
   /// Each worker tries to make everybody arrive a step earlier; the first to succeed stops the
   /// others.
-  bool descend() {
+  std::optional<Plan> descendFrom(const Plan& plan, std::uint64_t patience) {
+    if (makespanOf(plan) <= makespanLowerBound(instance_)) return std::nullopt;
     const auto stop = std::make_shared<StopFlag>(deadline_.stopFlag());
     const Deadline deadline = deadline_.withStop(stop);
-    const std::uint32_t horizon = makespanOf(plan_) - 1;
+    const std::uint32_t horizon = makespanOf(plan) - 1;
     std::mutex mutex;
     std::optional<Plan> found;
     std::vector<Executor::Job> jobs(options_.threads);
     for (Executor::Job& job : jobs) {
       job.run = [&, seed = ++descents_ + options_.seed] {
-        Placement placement(instance_, plan_, horizon, seed);
+        Placement placement(instance_, plan, horizon, seed);
         Placement::Effort effort;
-        effort.patience = patience_ * instance_.robots();
+        effort.patience = patience * instance_.robots();
         effort.delayed_one_in = Placement::kDelayedOneIn;
         effort.hasty = true;
         if (placement.run(horizon, effort, deadline) != Placement::Outcome::kDone) return;
@@ -110,13 +153,7 @@ class Refinement {
       };
     }
     executor_.run(std::move(jobs), options_.threads, deadline_);
-    if (!found) {
-      patience_ *= 2;
-      return false;
-    }
-    workers_.clear();
-    take(std::move(*found));
-    return true;
+    return found;
   }
 
   /// Solves windows anew, each time in another way, until one way gains a step or none does.
@@ -133,27 +170,30 @@ class Refinement {
       options.threads = options_.threads;
       std::optional<Plan> shorter =
           shortenWindows(instance_, plan_, options, *options_.solvers, executor_, deadline_);
-      if (!shorter) continue;
-      workers_.clear();
-      return take(std::move(*shorter));
+      if (shorter) return takeElsewhere(std::move(*shorter));
     }
   }
 
+  /// Mostly neighbourhoods; where these gain nothing any more, by turns.
+  void search() {
+    const bool stuck = instance_.robots() < kSmallTeam && in_vain_ >= kRoundsInVain;
+    const std::uint32_t turn = stuck ? ++turns_ % 3 : 0;
+    if (turn == 1) return searchGroups();
+    if (turn == 2 && options_.objective == Objective::kSumOfCosts) return searchSooner();
+    if (turn == 2 && mayDescend()) return searchLater();
+    searchNeighbourhoods();
+  }
+
   void searchNeighbourhoods() {
-    if (workers_.empty()) employWorkers();
+    if (workers_.empty()) {
+      placeWaits(instance_.graph().size(), plan_);
+      workers_ = employ(incumbent_, plan_, latestArrival());
+    }
     // Between descents there is no telling how much time is left for this.
     const Annealing* const annealing = mayDescend() ? nullptr : &annealing_;
-    const Deadline round = deadline_.within(kRoundSec);
-    std::vector<Executor::Job> jobs;
-    for (const auto& worker : workers_) {
-      jobs.push_back({0, [&worker = *worker, &round, annealing] { worker.run(round, annealing); }});
-    }
-    executor_.run(std::move(jobs), options_.threads, deadline_);
-    std::uint64_t seen = incumbent_->version();
-    for (const auto& worker : workers_) seen = std::min(seen, worker->version());
-    incumbent_->forgetBefore(seen);
-    Plan now = incumbent_->plan();
+    Plan now = runWorkers(*incumbent_, workers_, annealing);
     const std::uint64_t cost = sumOfCostsOf(now);
+    in_vain_ = cost < cost_ ? 0 : in_vain_ + 1;
     if (cost < cost_) {
       take(std::move(now));
     } else if (cost == cost_) {
@@ -161,15 +201,80 @@ class Refinement {
     }
   }
 
-  void employWorkers() {
-    const std::uint32_t latest =
-        options_.objective == Objective::kMakespan ? makespanOf(plan_) : kForever - 1;
-    placeWaits(instance_.graph().size(), plan_);
-    incumbent_ = std::make_unique<Incumbent>(plan_);
+  /// The best that small groups of robots can do among all others.
+  void searchGroups() {
+    const Deadline round = deadline_.within(kRoundSec);
+    std::vector<std::optional<GroupSearch>> searches(options_.threads);
+    std::vector<Executor::Job> jobs(options_.threads);
+    for (std::uint32_t i = 0; i < options_.threads; ++i) {
+      jobs[i].run = [&, i, seed = ++group_rounds_ + options_.seed] {
+        searches[i].emplace(instance_, plan_, latestArrival(), seed);
+        while (!round.expired() && sumOfCostsOf(searches[i]->plan()) > settlement_.leastSum()) {
+          searches[i]->tryOne(round);
+        }
+      };
+    }
+    executor_.run(std::move(jobs), options_.threads, deadline_);
+    for (const std::optional<GroupSearch>& search : searches) {
+      if (search && sumOfCostsOf(search->plan()) < cost_) takeElsewhere(search->plan());
+    }
+  }
+
+  /// For sum of costs: from a plan of less makespan. Its own sum may be greater at first.
+  void searchSooner() {
+    std::optional<Plan> sooner = descendFrom(other_ ? *other_ : plan_, kPatienceElsewhere);
+    other_.reset();
+    if (!sooner) return;
+    Plan found = searchFrom(std::move(*sooner));
+    if (sumOfCostsOf(found) < cost_) return takeElsewhere(std::move(found));
+    other_ = std::move(found);
+  }
+
+  /// For makespan: from a plan in which robots may arrive later, if all together cost less.
+  void searchLater() {
+    Plan found = searchFrom(other_ ? *std::move(other_) : plan_);
+    other_.reset();
+    if (makespanOf(found) < makespanOf(plan_)) return takeElsewhere(std::move(found));
+    other_ = std::move(found);
+  }
+
+  /// What one round of neighbourhoods makes of a plan, the best one being left alone.
+  Plan searchFrom(Plan plan) {
+    trimToArrival(plan);
+    std::unique_ptr<Incumbent> incumbent;
+    const auto workers = employ(incumbent, plan, kForever - 1);
+    return runWorkers(*incumbent, workers, nullptr);
+  }
+
+  using Workers = std::vector<std::unique_ptr<RefineWorker>>;
+
+  std::uint32_t latestArrival() const {
+    return options_.objective == Objective::kMakespan ? makespanOf(plan_) : kForever - 1;
+  }
+
+  Workers employ(std::unique_ptr<Incumbent>& incumbent, const Plan& plan,
+                 std::uint32_t latest_arrival) {
+    incumbent = std::make_unique<Incumbent>(plan);
+    Workers workers;
     for (std::uint32_t i = 0; i < options_.threads; ++i) {
       const std::uint64_t seed = options_.seed * options_.threads + i;
-      workers_.push_back(std::make_unique<RefineWorker>(instance_, *incumbent_, latest, seed));
+      workers.push_back(
+          std::make_unique<RefineWorker>(instance_, *incumbent, latest_arrival, seed));
     }
+    return workers;
+  }
+
+  Plan runWorkers(Incumbent& incumbent, const Workers& workers, const Annealing* annealing) {
+    const Deadline round = deadline_.within(kRoundSec);
+    std::vector<Executor::Job> jobs;
+    for (const auto& worker : workers) {
+      jobs.push_back({0, [&worker = *worker, &round, annealing] { worker.run(round, annealing); }});
+    }
+    executor_.run(std::move(jobs), options_.threads, deadline_);
+    std::uint64_t seen = incumbent.version();
+    for (const auto& worker : workers) seen = std::min(seen, worker->version());
+    incumbent.forgetBefore(seen);
+    return incumbent.plan();
   }
 
   const Instance& instance_;
@@ -178,14 +283,20 @@ class Refinement {
   const Deadline& deadline_;
   const std::function<void(const Plan&)>& improved_;
   const Annealing annealing_;
+  Settlement settlement_;
   Plan plan_;                             // the best
   std::uint64_t cost_;                    // its sum of costs
   std::unique_ptr<Incumbent> incumbent_;  // it, or one that may lead to a better one
-  std::vector<std::unique_ptr<RefineWorker>> workers_;
+  Workers workers_;
+  std::optional<Plan> other_;  // one that is worse, but may lead to a better one
+  std::uint32_t in_vain_ = 0;  // rounds of neighbourhoods since the last gain
+  std::uint32_t turns_ = 0;    // since these began to gain nothing
+  std::uint64_t group_rounds_ = 0;
   std::vector<std::string> window_solvers_;
   std::uint64_t window_rounds_ = 0;
   std::uint64_t descents_ = 0;
   std::uint64_t patience_ = kFirstPatience;
+  double settling_sec_ = 0;
   double descents_sec_ = 0;
   double search_sec_ = 0;
 };

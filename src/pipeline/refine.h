@@ -17,11 +17,20 @@ struct RefineOptions {
   Objective objective = Objective::kMakespan;
   std::uint64_t seed = 0;
   std::uint32_t threads = 1;
+  std::uint64_t lower_bound = 0;  ///< proved for the objective already [steps]
+  /// Whether so few robots are in each other's way that the optimum may be found by search over
+  /// their joint states.
+  bool small_knot = false;
+  /// Told what is proved on the way. For makespan, too: the sum of costs that no plan of the least
+  /// makespan goes below. Null: nobody is.
+  std::function<void(Objective, std::uint64_t bound)> proved;
   /// Whose `ecbs` and `ilp` solve windows of the plan anew for makespan; null: nobody does.
   const SolverRegistry* solvers = nullptr;
 };
 
-/// Improves a valid plan until the deadline, or until its cost is the lower bound: for makespan by
+/// Improves a valid plan until the deadline, or until its cost is proved to be the least, for
+/// makespan the sum of costs within it as well: small knots by search over joint states (see
+/// Settlement), in turns with all else; for makespan by
 /// conflict optimisation one step below the plan's makespan and by windows of the plan solved anew,
 /// in turns, then, for either objective, by chains of ejections and large-neighbourhood search for
 /// sum of costs. Where makespan is no matter any more it goes through worse plans on the way, see

@@ -10,6 +10,10 @@ namespace {
 constexpr std::uint32_t kBitsOfLeft = 40;
 constexpr std::uint32_t kStatesAPoll = 64;
 
+/// The greatest surplus in a portion of moves: twice as wide each time, or states would wait again
+/// and again where the bound is far below what a plan costs.
+std::uint32_t portion(std::uint32_t least) { return least < 2 ? least : 2 * least - 1; }
+
 std::uint64_t costLimit(const JointTask& task, const JointSettings& settings) {
   // Costs are counted in 32 bits.
   std::uint64_t limit = std::min<std::uint64_t>(task.cost_limit, 0xfffffff0U);
@@ -170,17 +174,18 @@ JointSearch::Outcome JointSearch::expand(std::uint32_t number) {
     }
     postpone(number, window);
   } else {
-    raiseBound(number, more_ && !sums(), 0);
+    raiseBound(number, more_ && !sums(), node.bound + 1, 0);
   }
   return Outcome::kNone;
 }
 
 MoveWindow JointSearch::windowOf(const Node& node) const {
+  const std::uint32_t least = std::max(node.progress, moves_.leastSurplus());
   if (sums()) {
-    return {node.progress, static_cast<std::uint32_t>(node.bound - node.cost - left_), false};
+    const auto own = static_cast<std::uint32_t>(node.bound - node.cost - left_);
+    return {node.progress, std::max(own, portion(least)), false};
   }
-  const std::uint32_t surplus = std::max(node.progress, moves_.leastSurplus());
-  return {surplus, surplus, node.bound > std::max(floor_, node.cost + most_left_)};
+  return {least, portion(least), node.bound > std::max(floor_, node.cost + most_left_)};
 }
 
 void JointSearch::offerMoves(std::uint32_t i, const Node& node) {
@@ -279,19 +284,25 @@ void JointSearch::open(std::uint32_t number, std::uint64_t left) {
 
 void JointSearch::postpone(std::uint32_t number, const MoveWindow& done) {
   const bool rest = moves_.mostSurplus() > done.most;
-  if (sums()) return raiseBound(number, rest, done.most + 1);
-  if (!rest) return raiseBound(number, more_, 0);
+  const Node& node = nodes_[number];
+  if (sums()) {
+    const std::uint64_t base = node.cost + left_;
+    return raiseBound(number, rest, static_cast<std::uint32_t>(base + done.most + 1),
+                      done.most + 1);
+  }
+  if (!rest) return raiseBound(number, more_, node.bound + 1, 0);
   nodes_[number].progress = done.most + 1;
   open(number, left_ + nodes_[number].progress - robots());
 }
 
-void JointSearch::raiseBound(std::uint32_t number, bool more, std::uint32_t progress) {
+void JointSearch::raiseBound(std::uint32_t number, bool more, std::uint32_t bound,
+                             std::uint32_t progress) {
   Node& node = nodes_[number];
-  if (!more || node.bound + 1 >= limit_) {
+  if (!more || bound >= limit_) {
     node.progress = kClosed;
     return;
   }
-  ++node.bound;
+  node.bound = bound;
   node.progress = progress;
   open(number, left_);
 }

@@ -113,8 +113,8 @@ class JointSearch {
   void open(std::uint32_t number, std::uint64_t left);
   /// Has the node wait for its next portion of moves, if it has one.
   void postpone(std::uint32_t number, const MoveWindow& done);
-  /// The same for a portion beyond the node's bound. @param more  whether there is one.
-  void raiseBound(std::uint32_t number, bool more, std::uint32_t progress);
+  /// The same for a portion with a higher bound. @param more  whether there is one.
+  void raiseBound(std::uint32_t number, bool more, std::uint32_t bound, std::uint32_t progress);
 
   const Instance& instance_;
   const JointTask task_;
