@@ -34,6 +34,7 @@ EcbsSolver::EcbsSolver(const SolverOptions& options) : settings_(new EcbsSetting
   settings.matching = values.flag("matching", settings.matching);
   settings.corridor = values.flag("corridor", settings.corridor);
   settings.independence = values.flag("independence", settings.independence);
+  settings.joint = values.flag("joint", settings.joint);
   settings.raise_every = values.count("raise_every", settings.raise_every);
   settings.polish = values.count("polish", settings.polish);
 }
@@ -60,6 +61,8 @@ SolverInfo EcbsSolver::info() {
         "branch on who comes first where robots meet head on in a corridor"},
        {"independence", flag(defaults.independence),
         "for w up to 1.1: plan groups of robots that do not meet apart"},
+       {"joint", flag(defaults.joint),
+        "at w = 1: search the joint states of small groups whose constraint trees grow"},
        {"raise_every", std::to_string(defaults.raise_every),
         "every so many nodes the one of the least lower bound; 0: never"},
        {"polish", std::to_string(defaults.polish),
@@ -82,7 +85,7 @@ SolveResult EcbsSolver::solve(const Instance& instance, const Deadline& deadline
     result.message.clear();
   }
   result.low_level_expansions = run.low_level.expansions();
-  certifyByLowerBound(result, settings_->objective, "ecbs");
+  certifyByLowerBound(result, settings_->objective, run.joint ? "ecbs/joint" : "ecbs");
   return result;
 }
 

@@ -6,6 +6,7 @@
 
 #include "solver/ilp/arc_flow.h"
 #include "solver/ilp/column_generation.h"
+#include "solver/ilp/joint_turn.h"
 #include "solver/ilp/upper_bound.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/option_values.h"
@@ -20,6 +21,10 @@ using ilp::SearchEnd;
 // Pricing states, and as much work of the simplex method, for one expansion of a limit: several
 // times what takes as long, as proofs are what this solver is asked for.
 constexpr std::uint64_t kStatesAnExpansion = 500;
+
+// What an engine may take before joint states get a turn: each about a second.
+constexpr std::uint64_t kTurn = 4000000;
+constexpr std::uint64_t kArcFlowTurn = 200000;
 
 /// What is known before the engine starts.
 SolveResult unsolvable(const SolvabilityVerdict& verdict, const Grid& grid) {
@@ -111,6 +116,7 @@ IlpSolver::IlpSolver(const SolverOptions& options)
   const OptionValues values(options.values);
   settings_.engine = values.choice("engine", settings_.engine, {"column_generation", "arc_flow"});
   settings_.heuristic = values.flag("heuristic", settings_.heuristic);
+  settings_.joint = values.flag("joint", settings_.joint);
   settings_.memory_mb = values.count("memory_mb", settings_.memory_mb);
   if (settings_.memory_mb == 0) throw OptionError("option memory_mb=0: at least 1 is expected");
 }
@@ -123,6 +129,8 @@ SolverInfo IlpSolver::info() {
             "column_generation, or arc_flow: the paper's formulation, as a reference"},
            {"heuristic", defaults.heuristic ? "true" : "false",
             "whether a heuristic plan may begin the search, or certify itself"},
+           {"joint", defaults.joint ? "true" : "false",
+            "whether a search over joint states gets a turn where the tree grows"},
            {"memory_mb", std::to_string(defaults.memory_mb), "MiB that the program may take"}},
           [](const SolverOptions& options) { return std::make_unique<IlpSolver>(options); }};
 }
@@ -149,13 +157,22 @@ SolveResult IlpSolver::solve(const Instance& instance, const Deadline& deadline)
       return upper_bound.round(used, limit);
     };
   }
+  const ilp::EngineRun engine = [&](const std::optional<Plan>& better_than,
+                                    const ilp::Effort& within) {
+    return settings_.engine == "arc_flow"
+               ? ilp::solveByArcFlow(instance, objective_, better_than, within)
+               : ilp::solveByColumnGeneration(instance, objective_, better_than, within, rounding);
+  };
+  bool joint = false;
   EngineResult found =
-      settings_.engine == "arc_flow"
-          ? ilp::solveByArcFlow(instance, objective_, known, effort)
-          : ilp::solveByColumnGeneration(instance, objective_, known, effort, rounding);
+      settings_.joint
+          ? ilp::solveInTurns(instance, objective_, engine, known, effort,
+                              settings_.engine == "arc_flow" ? kArcFlowTurn : kTurn, joint)
+          : engine(known, effort);
   const std::string reason = reasonOf(found, deadline, settings_.memory_mb);
   if (!found.plan) found.plan = std::move(known);
-  return conclude(std::move(found), objective_, settings_.engine, reason, deadline);
+  return conclude(std::move(found), objective_, joint ? "joint" : settings_.engine, reason,
+                  deadline);
 }
 
 }  // namespace split_mapf

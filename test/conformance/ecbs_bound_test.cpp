@@ -28,7 +28,7 @@ class EcbsBound : public ::testing::TestWithParam<std::tuple<int, Objective, boo
     SolverOptions options;
     options.objective = objective();
     options.suboptimality = suboptimality();
-    for (const char* name : {"cardinal", "corridor", "independence"}) {
+    for (const char* name : {"cardinal", "corridor", "independence", "joint"}) {
       options.values[name] = std::get<2>(GetParam()) ? "true" : "false";
     }
     return builtinSolvers().create("ecbs", options)->solve(instance, Deadline(kPatienceSec));

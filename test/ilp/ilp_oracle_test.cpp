@@ -30,6 +30,7 @@ class IlpOracle : public ::testing::TestWithParam<std::tuple<std::string, bool, 
     SolverOptions options;
     options.objective = objective();
     options.values["engine"] = std::get<0>(GetParam());
+    options.values["joint"] = "false";  // the engine alone
     options.values["heuristic"] = std::get<1>(GetParam()) ? "true" : "false";
     return IlpSolver(options).solve(instance, Deadline(kPatienceSec));
   }

@@ -34,6 +34,28 @@ TEST(IlpSolver, NamesTheOptionAtFault) {
   EXPECT_THROW(makeSolver(Objective::kMakespan, {{"memory_mb", "0"}}), OptionError);
 }
 
+TEST(IlpSolver, SettlesAKnotWhoseTreeDoesNotEnd) {
+  const Instance instance = test::fiveRobotKnot();
+  for (const Objective objective : {Objective::kMakespan, Objective::kSumOfCosts}) {
+    for (const std::string engine : {"column_generation", "arc_flow"}) {
+      const SolveResult result = makeSolver(objective, {{"engine", engine}, {"heuristic", "false"}})
+                                     .solve(instance, Deadline(120));
+      ASSERT_EQ(result.termination, Termination::kSolved) << result.message;
+      EXPECT_TRUE(validate(instance, *result.plan).empty());
+      EXPECT_EQ(costOf(*result.plan, objective), objective == Objective::kMakespan ? 10U : 44U);
+      EXPECT_TRUE(result.optimal);
+      EXPECT_EQ(result.certified_by, "ilp/joint");
+    }
+  }
+}
+
+TEST(IlpSolver, LeavesKnotsToItsEngineWhereItIsToldTo) {
+  const SolveResult result = makeSolver(Objective::kSumOfCosts, {{"joint", "false"}}, 5000)
+                                 .solve(test::fiveRobotKnot(), Deadline(120));
+  EXPECT_NE(result.certified_by, "ilp/joint");
+  EXPECT_FALSE(result.optimal);
+}
+
 TEST(IlpSolver, SaysWhoCertifiedThePlan) {
   const Instance siding = test::instanceFromAscii({"a.b",  //
                                                    "#.#"},

@@ -6,6 +6,7 @@
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/validate.h"
 #include "support/ascii_grid.h"
+#include "support/small_instances.h"
 
 namespace split_mapf {
 namespace {
@@ -80,6 +81,34 @@ TEST(EcbsSolver, ShortRobotsUseTheMakespansSlack) {
   EXPECT_TRUE(validate(instance, *result.plan).empty());
   EXPECT_EQ(makespanOf(*result.plan), 4U);
   EXPECT_TRUE(result.optimal);
+}
+
+TEST(EcbsSolver, SettlesAKnotWhoseTreeDoesNotEnd) {
+  const Instance instance = test::fiveRobotKnot();
+  for (const auto& [objective, optimum] :
+       {std::pair(Objective::kMakespan, 10U), std::pair(Objective::kSumOfCosts, 44U)}) {
+    SolverOptions options;
+    options.suboptimality = 1;
+    options.objective = objective;
+    const SolveResult result = EcbsSolver(options).solve(instance, Deadline(60));
+    ASSERT_EQ(result.termination, Termination::kSolved);
+    EXPECT_TRUE(validate(instance, *result.plan).empty());
+    EXPECT_EQ(costOf(*result.plan, objective), optimum);
+    EXPECT_TRUE(result.optimal);
+    EXPECT_EQ(result.certified_by, "ecbs/joint");
+    options.values["joint"] = "false";
+    options.expansion_limit = 200000;
+    EXPECT_NE(EcbsSolver(options).solve(instance, Deadline(60)).certified_by, "ecbs/joint");
+  }
+}
+
+TEST(EcbsSolver, ProvesThatASwapInACorridorIsImpossible) {
+  const Instance instance = test::instanceFromAscii({"a..b"}, {"b..a"});
+  SolverOptions options;
+  options.suboptimality = 1;
+  const SolveResult result = EcbsSolver(options).solve(instance, Deadline(60));
+  EXPECT_EQ(result.termination, Termination::kUnsolvable);
+  EXPECT_NE(result.message.find("all joint states of 2 robots"), std::string::npos);
 }
 
 TEST(EcbsSolver, ReportsRobotsThatAreCutOff) {

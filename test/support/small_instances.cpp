@@ -8,6 +8,7 @@
 
 #include "split_mapf/core/generator.h"
 #include "split_mapf/core/random.h"
+#include "support/ascii_grid.h"
 
 namespace split_mapf::test {
 namespace {
@@ -63,6 +64,10 @@ Instance crowdedInstance(std::uint64_t seed) {
   const std::uint32_t most = grid->size() <= 6 ? 5 : grid->size() <= 9 ? 4 : 3;
   const std::uint32_t robots = std::min(grid->size() - 1, drawBetween(engine, 2, most));
   return drawInstance(engine, std::move(grid), robots);
+}
+
+Instance fiveRobotKnot() {
+  return instanceFromAscii({"####", ".b..", "ce#.", "d#a."}, {"####", "..bd", "ac#.", ".#.e"});
 }
 
 std::string describe(const Instance& instance) {

@@ -16,6 +16,10 @@ Instance smallInstance(std::uint64_t seed);
 /// The same with 2 to 5 robots on 2x2 to 4x4 cells: more often a knot, sooner solved by the oracle.
 Instance crowdedInstance(std::uint64_t seed);
 
+/// Five robots on eleven of 4x4 cells that must all give way: makespan 10, sum of costs 44. Trees
+/// of constraints and linear programs do not end on it within a minute.
+Instance fiveRobotKnot();
+
 /// What the generator makes: nobody is cut off.
 Instance generatedInstance(const GeneratorOptions& options);
 /// The same for a random square map.

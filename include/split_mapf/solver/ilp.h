@@ -13,7 +13,8 @@ namespace split_mapf {
 /// Two engines: column generation (one variable a path; Lam et al., IJCAI 2019) and, as reference,
 /// the arc-flow formulation of Yu and LaValle, T-RO 2016 (one variable a robot, edge and step),
 /// which is for small teams only. A heuristic plan comes first: one that meets the lower bound is a
-/// certificate by itself, another one is where the search begins.
+/// certificate by itself, another one is where the search begins. Where the tree outgrows its first
+/// turn a search over joint states (see JointSolver) gets one, which undoes knots of a few robots.
 /// Complete: an unsolvable instance is recognised before any search.
 ///
 /// GLPK keeps one environment a thread. A call of solve() uses that of its thread and gives it
@@ -25,6 +26,7 @@ class IlpSolver : public Solver {
   struct Settings {
     std::string engine = "column_generation";
     bool heuristic = true;
+    bool joint = true;
     std::uint64_t memory_mb = 1024;
   };
   /// @throws OptionError for an option value out of range.

@@ -26,6 +26,7 @@ struct EcbsRun {
   const Deadline& deadline;
   PathTable table;  ///< holds `paths`
   LowLevel low_level;
+  bool joint = false;       ///< whether a search over joint states has settled a group
   std::vector<Path> paths;  ///< robot -> path in the plan under construction; empty: none yet
 };
 

@@ -1,12 +1,20 @@
 #include "solver/ecbs/ecbs_search.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
+
+#include "solver/joint/joint_search.h"
 
 namespace split_mapf {
 namespace {
 
 constexpr std::uint32_t kNoPath = 0xffffffffU;
+// What a search over joint states may take: seconds, and some 100 MB.
+constexpr std::uint64_t kJointStates = 1000000;
+constexpr std::uint64_t kJointMoves = 100000000;
+// Joint moves that take as long as an expansion of a single robot's search.
+constexpr std::uint64_t kMovesAnExpansion = 10;
 
 std::uint32_t lengthOf(const Path& path) { return static_cast<std::uint32_t>(path.size()) - 1; }
 
@@ -34,11 +42,12 @@ EcbsSearch::EcbsSearch(EcbsRun& run, GroupTask task)
   plantRoot(std::move(task.conflicts));
 }
 
-SolveResult EcbsSearch::run() {
+SolveResult EcbsSearch::run(std::uint64_t most_nodes) {
   SolveResult result;
   result.lower_bound = first_bound_;
   bool done = false;
   while (!done && !low_level_.stopped() && !tree_.empty()) {
+    if (most_nodes > 0 && result.high_level_nodes == most_nodes) return result;
     result.lower_bound = tree_.lowerBound();
     // Otherwise FOCAL can descend for ever below a bound that nobody raises.
     const bool raise = settings_.raise_every > 0 &&
@@ -72,6 +81,44 @@ void EcbsSearch::plantRoot(std::vector<Conflict> conflicts) {
   }
   root.lower_bound = first_bound_;
   tree_.add(std::move(root));
+}
+
+void EcbsSearch::leaveTable() {
+  for (const std::uint32_t robot : robots_) {
+    if (path_of_[robot] != kNoPath) table_.remove(robot, tree_.path(path_of_[robot]));
+    path_of_[robot] = kNoPath;
+  }
+}
+
+bool EcbsSearch::searchJointStates(SolveResult& result) {
+  leaveTable();
+  JointTask task;
+  task.robots = robots_;
+  task.others = &table_;
+  if (settings_.objective == Objective::kMakespan) task.floor = first_bound_;
+  JointSettings settings;
+  settings.objective = settings_.objective;
+  settings.states = kJointStates;
+  settings.expansion_limit = kJointMoves;
+  JointSearch search(instance_, std::move(task), settings, run_.deadline);
+  const JointSearch::Outcome outcome = search.run();
+  low_level_.count(search.expansions() / kMovesAnExpansion);
+  result.lower_bound = std::max(result.lower_bound, search.lowerBound());
+  if (outcome == JointSearch::Outcome::kNone) {
+    result.termination = Termination::kUnsolvable;
+    result.message = "no plan exists: all joint states of " + std::to_string(robots_.size()) +
+                     " robots were searched";
+    return true;
+  }
+  if (outcome != JointSearch::Outcome::kFound) return false;
+  std::vector<Path> paths = search.paths();
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    run_.paths[robots_[i]] = std::move(paths[i]);
+    table_.insert(robots_[i], run_.paths[robots_[i]]);
+  }
+  run_.joint = true;
+  result.termination = Termination::kSolved;
+  return true;
 }
 
 void EcbsSearch::handOver() {

@@ -29,8 +29,13 @@ class EcbsSearch {
  public:
   /// @pre the run outlives this object.
   EcbsSearch(EcbsRun& run, GroupTask task);
-  /// The result has no plan: where it is kSolved, the run has the robots' paths.
-  SolveResult run();
+  /// The result has no plan: where it is kSolved, the run has the robots' paths. May be called
+  /// again, and goes on then, where so many nodes were not enough.
+  /// @param most_nodes  after which it ends with kNoPlanFound; 0: any number.
+  SolveResult run(std::uint64_t most_nodes = 0);
+  /// Settles the robots by a search over their joint states instead. False, the result's bound
+  /// apart, where these are too many. @pre w = 1.
+  bool searchJointStates(SolveResult& result);
 
  private:
   /// A child under construction: its path is not in the tree yet.
@@ -57,6 +62,7 @@ class EcbsSearch {
   /// kForever when there is none.
   std::uint32_t shortestUnderConstraints(std::uint32_t robot);
   void handOver();
+  void leaveTable();
 
   EcbsRun& run_;
   const Instance& instance_;

@@ -164,8 +164,18 @@ bool RobotGroups::plan(std::uint32_t number, SolveResult& result) {
     result.termination = interruptionOf(run_.deadline);
     return false;
   }
-  const SolveResult part = EcbsSearch(run_, std::move(task)).run();
   Group& group = groups_[number];
+  EcbsSearch search(run_, std::move(task));
+  const bool joint = run_.settings.searchesJointStates(group.robots.size());
+  SolveResult part = search.run(joint ? EcbsSettings::kNodesBeforeJoint : 0);
+  // Neither solved nor stopped: the tree goes on only where joint states are too many as well.
+  if (part.termination == Termination::kNoPlanFound && !search.searchJointStates(part)) {
+    const SolveResult rest = search.run();
+    part.termination = rest.termination;
+    part.message = rest.message;
+    part.lower_bound = std::max(part.lower_bound, rest.lower_bound);
+    part.high_level_nodes += rest.high_level_nodes;
+  }
   group.lower_bound = std::max(group.lower_bound, part.lower_bound);
   group.open = false;
   result.high_level_nodes += part.high_level_nodes;

@@ -24,12 +24,20 @@ struct EcbsSettings {
   bool corridor = true;      ///< branch on who comes first through a corridor
   bool independence = true;  ///< near w = 1: plan groups of robots that do not meet apart
   std::uint64_t raise_every = 4;  ///< every so many nodes one of the least lower bound; 0: never
-  std::uint64_t polish = 2;       ///< passes over the plan found in which robots get earlier paths
+  bool joint = true;  ///< at w = 1: settle small groups whose trees grow by their joint states
+  std::uint64_t polish = 2;  ///< passes over the plan found in which robots get earlier paths
 
   /// Measured: with much slack the tree over all robots hardly branches, and groups that merge
   /// again and again take up to four times as long.
   static constexpr double kMostForGroups = 1.1;
   bool plansGroups() const { return independence && suboptimality <= kMostForGroups; }
+
+  /// Of a group of so many robots joint states are searched once its tree has so many nodes.
+  static constexpr std::size_t kMostForJoint = 10;
+  static constexpr std::uint64_t kNodesBeforeJoint = 1000;
+  bool searchesJointStates(std::size_t robots) const {
+    return joint && suboptimality == 1 && robots <= kMostForJoint;
+  }
 
   /// The greatest cost allowed under a lower bound.
   std::uint64_t limit(std::uint64_t lower_bound) const {

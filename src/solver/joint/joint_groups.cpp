@@ -46,7 +46,8 @@ JointGroups::Outcome JointGroups::run() {
     Outcome outcome = pass(number, other);
     if (outcome == Outcome::kNone) {
       merge(number, other);
-      outcome = plan(number, nullptr);
+      const bool large = groups_[number].robots.size() > settings_.most_robots;
+      outcome = large ? Outcome::kFull : plan(number, nullptr);
     }
     if (outcome != Outcome::kFound) return outcome;
     number = 0;  // its new paths may meet anybody
