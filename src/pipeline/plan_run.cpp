@@ -261,7 +261,7 @@ void PlanRun::searchOptimum() {
     options.seed = report_.seed;
     options.expansion_limit = turn.expansions;
     SolveResult result = solvers_.create(turn.solver, options)->solve(instance_, deadline_);
-    raiseBound(result.lower_bound, turn.solver);
+    raiseBound(result.lower_bound, result.optimal ? result.certified_by : turn.solver);
     if (result.plan &&
         costOf(*result.plan, report_.objective) < costOf(*report_.plan, report_.objective)) {
       accept(std::move(*result.plan));
