@@ -24,7 +24,7 @@ class JointSolver : public Solver {
   explicit JointSolver(const SolverOptions& options);
   ~JointSolver() override;
   /// Counts as expansions: joint moves. Ends with kNoPlanFound, and a proved lower bound, when one
-  /// group has met as many joint states as the option `states` allows. Memory: about 60 bytes and 2
+  /// group has met as many joint states as the option `states` allows. Memory: about 80 bytes and 2
   /// to 4 bytes a robot for each of them, of one group at a time.
   SolveResult solve(const Instance& instance, const Deadline& deadline) const override;
   static SolverInfo info();
