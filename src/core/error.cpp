@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "split_mapf/core/wording.h"
+
 namespace split_mapf {
 namespace {
 
@@ -9,7 +11,7 @@ std::string summarise(const std::vector<InstanceFault>& faults) {
   if (faults.empty()) return "ill-posed instance";
   std::string text = faults.front().message;
   if (faults.size() > 1) {
-    text += " (and " + std::to_string(faults.size() - 1) + " more robots at fault)";
+    text += " (and " + counted(faults.size() - 1, "more robot") + " at fault)";
   }
   return text;
 }

@@ -7,6 +7,7 @@
 
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/random.h"
+#include "split_mapf/core/wording.h"
 
 namespace split_mapf {
 namespace {
@@ -219,7 +220,7 @@ MapKind parseMapKind(const std::string& text) {
   for (const MapKind kind : {MapKind::kRandom, MapKind::kWarehouse, MapKind::kRooms}) {
     if (toString(kind) == text) return kind;
   }
-  throw OptionError("type '" + text + "' is unknown; expected random, warehouse or rooms");
+  throw OptionError("type " + quote(text) + " is unknown; expected random, warehouse or rooms");
 }
 
 GeneratedProblem generateProblem(const GeneratorOptions& options) {
@@ -229,9 +230,9 @@ GeneratedProblem generateProblem(const GeneratorOptions& options) {
   problem.grid = buildGrid(options, engine);
   const std::vector<Vertex> component = largestComponent(problem.grid->graph());
   if (options.robots > component.size()) {
-    throw OptionError(std::to_string(options.robots) + " robots: the largest connected part of " +
-                      "this map has " + std::to_string(component.size()) +
-                      " cells, and each robot needs its own start and goal");
+    throw OptionError(
+        counted(options.robots, "robot") + ": the largest connected part of this map has " +
+        counted(component.size(), "cell") + ", and each robot needs its own start and goal");
   }
   problem.starts = drawCells(*problem.grid, component, options.robots, engine);
   problem.goals = drawCells(*problem.grid, component, options.robots, engine);

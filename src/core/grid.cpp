@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/wording.h"
 
 namespace split_mapf {
 namespace {
@@ -19,7 +20,7 @@ void requireShape(std::uint32_t width, std::uint32_t height, std::size_t cells) 
   }
   if (cells != static_cast<std::size_t>(width) * height) {
     throw InputError("a grid of " + shape + " needs " +
-                     std::to_string(static_cast<std::size_t>(width) * height) + " cells, got " +
+                     counted(static_cast<std::size_t>(width) * height, "cell") + ", got " +
                      std::to_string(cells));
   }
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/wording.h"
 
 namespace split_mapf {
 namespace {
@@ -50,8 +51,8 @@ Instance::Instance(std::shared_ptr<const Grid> grid, const std::vector<Cell>& st
                    const std::vector<Cell>& goals, DistanceExtent extent)
     : grid_(std::move(grid)) {
   if (starts.size() != goals.size()) {
-    throw InputError(std::to_string(starts.size()) + " starts but " + std::to_string(goals.size()) +
-                     " goals: one of each a robot is needed");
+    throw InputError(counted(starts.size(), "start") + " but " + counted(goals.size(), "goal") +
+                     ": one of each a robot is needed");
   }
   if (starts.empty()) throw InputError("an instance needs at least one robot");
   std::vector<InstanceFault> faults;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/wording.h"
 
 namespace split_mapf {
 
@@ -18,7 +19,8 @@ std::string OptionValues::choice(const std::string& name, const std::string& fal
   }
   std::string expected;
   for (const std::string& choice : choices) expected += (expected.empty() ? "" : ", ") + choice;
-  throw OptionError("option " + name + "=" + found->second + ": expected one of " + expected);
+  throw OptionError("option " + name + "=" + shown(found->second) + ": expected one of " +
+                    expected);
 }
 
 std::uint64_t OptionValues::count(const std::string& name, std::uint64_t fallback) const {
@@ -27,10 +29,9 @@ std::uint64_t OptionValues::count(const std::string& name, std::uint64_t fallbac
   const std::string& text = found->second;
   const bool digits = !text.empty() && text.size() < 19 &&
                       text.find_first_not_of("0123456789") == std::string::npos;
-  if (!digits) {
-    throw OptionError("option " + name + "=" + text + ": expected a whole number, 0 or greater");
-  }
-  return std::stoull(text);
+  if (digits && std::stoull(text) <= kMostCount) return std::stoull(text);
+  throw OptionError("option " + name + "=" + shown(text) + ": expected a whole number from 0 to " +
+                    std::to_string(kMostCount));
 }
 
 double OptionValues::number(const std::string& name, double fallback, double least,
@@ -45,7 +46,8 @@ double OptionValues::number(const std::string& name, double fallback, double lea
   if (plain && *stop == '\0' && value >= least && value <= most) return value;
   std::ostringstream range;
   range << least << " to " << most;
-  throw OptionError("option " + name + "=" + text + ": expected a number from " + range.str());
+  throw OptionError("option " + name + "=" + shown(text) + ": expected a number from " +
+                    range.str());
 }
 
 bool OptionValues::flag(const std::string& name, bool fallback) const {

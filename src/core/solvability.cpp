@@ -7,6 +7,7 @@
 #include "core/part_check.h"
 #include "split_mapf/core/grid_parts.h"
 #include "split_mapf/core/way_band.h"
+#include "split_mapf/core/wording.h"
 
 namespace split_mapf {
 namespace {
@@ -99,8 +100,8 @@ SolvabilityVerdict SolvabilityChecker::check(const std::vector<Vertex>& starts,
                                              const std::vector<Vertex>& goals,
                                              const Deadline& deadline) const {
   if (starts.size() != goals.size()) {
-    throw std::invalid_argument(std::to_string(starts.size()) + " starts but " +
-                                std::to_string(goals.size()) + " goals");
+    throw std::invalid_argument(counted(starts.size(), "start") + " but " +
+                                counted(goals.size(), "goal"));
   }
   requireDistinct(*graph_, starts, "start");
   requireDistinct(*graph_, goals, "goal");

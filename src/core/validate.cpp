@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "split_mapf/core/wording.h"
+
 namespace split_mapf {
 namespace {
 
@@ -92,9 +94,8 @@ class RobotChecks {
   void run() {
     if (paths_.count() != instance_.robots()) {
       violations_.push_back({ViolationKind::kRobotCount, 0, 0, 0,
-                             "the plan has " + std::to_string(paths_.count()) +
-                                 " paths, but the instance has " +
-                                 std::to_string(instance_.robots()) + " robots"});
+                             "the plan has " + counted(paths_.count(), "path") +
+                                 ", but the instance has " + counted(instance_.robots(), "robot")});
     }
     for (std::uint32_t robot = 0; robot < paths_.count(); ++robot) check(robot);
   }

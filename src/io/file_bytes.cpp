@@ -41,21 +41,6 @@ void writeFile(const std::string& path, const std::string& bytes) {
   if (!out) failOfSystem("write", path, errno);
 }
 
-std::string quoted(const std::string& text) {
-  constexpr std::size_t kMaxShown = 40;
-  constexpr const char* kHexDigits = "0123456789abcdef";
-  std::string shown = "'";
-  for (std::size_t i = 0; i < text.size() && i < kMaxShown; ++i) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    if (byte >= 0x20 && byte < 0x7f) {
-      shown += text[i];
-    } else {
-      shown += std::string("\\x") + kHexDigits[byte >> 4U] + kHexDigits[byte & 0xfU];
-    }
-  }
-  return shown + (text.size() > kMaxShown ? "..." : "") + "'";
-}
-
 void failAtLine(const std::string& path, std::size_t line, const std::string& message) {
   throw InputError(path + ":" + std::to_string(line) + ": " + message);
 }

@@ -10,10 +10,6 @@ std::string readFile(const std::string& path);
 /// Writes a whole file. @throws InputError naming the file and the system's reason.
 void writeFile(const std::string& path, const std::string& bytes);
 
-/// Text from a file as a message shows it: in quotes, at most 40 characters, with bytes that cannot
-/// be printed as \xNN.
-std::string quoted(const std::string& text);
-
 /// Ends the reading of a text file: "path:line: message".
 [[noreturn]] void failAtLine(const std::string& path, std::size_t line, const std::string& message);
 /// Ends the reading of a binary file: "path: byte N: message".

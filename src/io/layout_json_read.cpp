@@ -3,6 +3,7 @@
 
 #include "io/file_bytes.h"
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/wording.h"
 #include "split_mapf/io/plan_json.h"
 
 namespace split_mapf {
@@ -63,13 +64,13 @@ class LayoutReader {
       const auto region = run[0].get<std::int64_t>();
       const auto length = run[1].get<std::uint64_t>();
       if (length > cells - next || region < -1 || region >= std::int64_t{kNoRegion}) {
-        fail("has an ownership that does not fit the map's " + std::to_string(cells) + " cells");
+        fail("has an ownership that does not fit the map's " + counted(cells, "cell"));
       }
       for (const std::uint64_t end = next + length; next < end; ++next)
         own(next, region, ownership);
     }
     if (next != cells) {
-      fail("has an ownership of " + std::to_string(next) + " cells, the map has " +
+      fail("has an ownership of " + counted(next, "cell") + ", the map has " +
            std::to_string(cells));
     }
     return ownership;
@@ -95,7 +96,7 @@ class LayoutReader {
       if (v != kNoVertex) return v;
     }
     fail("has a state that is no free cell of the map: " +
-         quoted(json.dump(-1, ' ', true, Json::error_handler_t::replace)));
+         quote(json.dump(-1, ' ', true, Json::error_handler_t::replace)));
   }
 
   const std::string& path_;

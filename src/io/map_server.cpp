@@ -7,6 +7,7 @@
 #include "io/map_picture.h"
 #include "io/map_server_yaml.h"
 #include "io/png_structure.h"
+#include "split_mapf/core/wording.h"
 
 namespace split_mapf {
 namespace {
@@ -19,7 +20,7 @@ MapPicture readPicture(const std::string& path) {
   if (isPng(bytes)) return parsePng(path, bytes);
   if (isPnm(bytes)) return parsePnm(path, bytes);
   failAtByte(path, 0,
-             "read " + (bytes.empty() ? "an empty file" : quoted(bytes.substr(0, 8))) +
+             "read " + (bytes.empty() ? "an empty file" : quote(bytes.substr(0, 8))) +
                  ", expected a PNG picture or a PGM, PBM or PPM picture (P1 to P6)");
 }
 

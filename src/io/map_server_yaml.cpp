@@ -7,6 +7,7 @@
 
 #include "io/file_bytes.h"
 #include "io/line_reader.h"
+#include "split_mapf/core/wording.h"
 
 namespace split_mapf {
 namespace {
@@ -57,7 +58,7 @@ class YamlReader {
 
   [[noreturn]] void refuse(const std::string& key, const std::string& expected) const {
     const YAML::Node node = root_[key];
-    const std::string read = node.IsScalar() ? quoted(node.Scalar()) : "no single value";
+    const std::string read = node.IsScalar() ? quote(node.Scalar()) : "no single value";
     failAt(markOf(key), key + ": read " + read + ", expected " + expected);
   }
 
@@ -67,15 +68,14 @@ class YamlReader {
     for (const auto& pair : root_) {
       if (pair.first.IsScalar() && !seen.insert(pair.first.Scalar()).second) {
         failAt(pair.first.Mark(),
-               "read the key " + quoted(pair.first.Scalar()) + " a second time, expected it once");
+               "read the key " + quote(pair.first.Scalar()) + " a second time, expected it once");
       }
     }
   }
 
   YAML::Node required(const std::string& key, const std::string& expected) const {
     const YAML::Node node = root_[key];
-    if (!node)
-      failAt(root_.Mark(), "read no key " + quoted(key) + ", expected it with " + expected);
+    if (!node) failAt(root_.Mark(), "read no key " + quote(key) + ", expected it with " + expected);
     return node;
   }
 
@@ -112,7 +112,7 @@ class YamlReader {
       const bool good = entry.IsScalar() && YAML::convert<double>::decode(entry, values[i]);
       if (!good || !std::isfinite(values[i])) {
         std::string message = "origin: read ";
-        message += entry.IsScalar() ? quoted(entry.Scalar()) : "no single value";
+        message += entry.IsScalar() ? quote(entry.Scalar()) : "no single value";
         failAt(entry.Mark(), message += ", expected " + expected);
       }
     }

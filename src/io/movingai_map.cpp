@@ -4,6 +4,7 @@
 #include "io/file_bytes.h"
 #include "io/line_reader.h"
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/wording.h"
 #include "split_mapf/io/movingai.h"
 
 namespace split_mapf {
@@ -49,7 +50,7 @@ class MapReader {
       } else if (words[0] == "width") {
         readSide(line, words, width_);
       } else {
-        lines_.fail(quoted(line), expected);
+        lines_.fail(quote(line), expected);
       }
     }
   }
@@ -64,10 +65,10 @@ class MapReader {
   }
 
   void readType(const std::string& line, const std::vector<std::string>& words) {
-    if (typed_) lines_.fail(quoted(line) + " a second time", missingLine());
+    if (typed_) lines_.fail(quote(line) + " a second time", missingLine());
     // Rows of another type, hexagons for instance, look the same and mean something else.
     if (words != std::vector<std::string>{"type", "octile"}) {
-      lines_.fail(quoted(line), "'type octile'");
+      lines_.fail(quote(line), "'type octile'");
     }
     typed_ = true;
   }
@@ -75,10 +76,10 @@ class MapReader {
   // Reads "height 32" and its like.
   void readSide(const std::string& line, const std::vector<std::string>& words,
                 std::uint32_t& side) {
-    if (side != 0) lines_.fail(quoted(line) + " a second time", missingLine());
+    if (side != 0) lines_.fail(quote(line) + " a second time", missingLine());
     const auto value = words.size() == 2 ? parseInteger(words[1]) : std::nullopt;
     if (!value || *value < 1 || *value > kMaxSide) {
-      lines_.fail(quoted(line), expectedSide(words[0]));
+      lines_.fail(quote(line), expectedSide(words[0]));
     }
     side = static_cast<std::uint32_t>(*value);
   }
@@ -89,8 +90,8 @@ class MapReader {
       const std::string place = "row " + std::to_string(y + 1) + " of " + std::to_string(height_);
       const std::string row = readRow(place);
       if (row.size() != width_) {
-        lines_.fail(std::to_string(row.size()) + " characters: " + quoted(row),
-                    std::to_string(width_) + " characters in " + place + ", the map's width");
+        lines_.fail(counted(row.size(), "character") + ": " + quote(row),
+                    counted(width_, "character") + " in " + place + ", the map's width");
       }
       for (std::size_t x = 0; x < row.size(); ++x) free.push_back(isFreeSymbol(row[x], x));
     }
@@ -111,17 +112,16 @@ class MapReader {
   bool isFreeSymbol(char symbol, std::size_t column) {
     if (kFreeSymbols.find(symbol) != std::string_view::npos) return true;
     if (kBlockedSymbols.find(symbol) != std::string_view::npos) return false;
-    lines_.fail(quoted(std::string(1, symbol)) + " in column " + std::to_string(column + 1),
+    lines_.fail(quote(std::string(1, symbol)) + " in column " + std::to_string(column + 1),
                 "one of '.GSE' (free) or '@OTW' (blocked)");
   }
 
   void requireEnd() {
     const std::optional<std::string> extra = lines_.nextFilled();
     if (!extra) return;
-    const std::string end =
-        "the end of the file after " + std::to_string(height_) + (height_ == 1 ? " row" : " rows");
-    if (isHeaderWord(*extra)) lines_.fail(quoted(*extra) + ", a second map", end);
-    lines_.fail(quoted(*extra), end);
+    const std::string end = "the end of the file after " + counted(height_, "row");
+    if (isHeaderWord(*extra)) lines_.fail(quote(*extra) + ", a second map", end);
+    lines_.fail(quote(*extra), end);
   }
 
   LineReader lines_;

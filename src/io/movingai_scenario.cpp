@@ -5,6 +5,7 @@
 #include "io/scenario_row.h"
 #include "split_mapf/core/distance_table.h"
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/wording.h"
 #include "split_mapf/io/movingai.h"
 
 namespace split_mapf {
@@ -42,22 +43,20 @@ class ScenarioReader {
     const std::vector<std::string> words = splitWords(lowerCase(line));
     const bool known =
         words.size() == 2 && words[0] == "version" && (words[1] == "1" || words[1] == "1.0");
-    if (!known) lines_.fail(quoted(line), "'version 1'");
+    if (!known) lines_.fail(quote(line), "'version 1'");
     return lines_.nextFilled();
   }
 
   void requireRows(std::size_t rows, std::optional<std::uint32_t> agents) {
     if (rows > 0 && !agents) return;
-    lines_.fail(
-        "the end of the file after " + std::to_string(rows) + (rows == 1 ? " robot" : " robots"),
-        agents ? std::to_string(*agents) + " robots" : "at least one");
+    lines_.fail("the end of the file after " + counted(rows, "robot"),
+                agents ? counted(*agents, "robot") : "at least one");
   }
 
   void readRow(const std::string& line, Scenario& scenario) {
     const std::optional<ScenarioRow> row = splitScenarioRow(line);
     if (!row) {
-      lines_.fail(std::to_string(countColumns(line)) + " columns: " + quoted(line),
-                  kScenarioRowShape);
+      lines_.fail(counted(countColumns(line), "column") + ": " + quote(line), kScenarioRowShape);
     }
     integerIn(row->bucket, "bucket");
     const std::int64_t width = integerIn(row->width, "width");
@@ -73,7 +72,7 @@ class ScenarioReader {
 
   std::int64_t integerIn(const std::string& field, const std::string& column) {
     const auto value = parseInteger(field);
-    if (!value) lines_.fail(quoted(field), "an integer as " + column);
+    if (!value) lines_.fail(quote(field), "an integer as " + column);
     return *value;
   }
 
@@ -85,7 +84,7 @@ class ScenarioReader {
     std::istringstream in(field);
     in.imbue(std::locale::classic());
     if (!(in >> length) || in.peek() != std::istringstream::traits_type::eof()) {
-      lines_.fail(quoted(field), "a number as length");
+      lines_.fail(quote(field), "a number as length");
     }
   }
 
@@ -140,8 +139,8 @@ void writeMovingAiScenario(const std::string& path, const std::string& map_name,
                            const Scenario& scenario) {
   const std::size_t robots = scenario.starts.size();
   if (scenario.goals.size() != robots) {
-    throw InputError("a scenario of " + std::to_string(robots) + " starts has " +
-                     std::to_string(scenario.goals.size()) + " goals, expected as many");
+    throw InputError("a scenario of " + counted(robots, "start") + " has " +
+                     counted(scenario.goals.size(), "goal") + ", expected as many");
   }
   std::ostringstream out;
   out.imbue(std::locale::classic());

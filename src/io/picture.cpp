@@ -8,6 +8,7 @@
 #include "io/palette.h"
 #include "io/path_line.h"
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/wording.h"
 
 namespace split_mapf {
 namespace {
@@ -208,15 +209,15 @@ void requireLayout(const Grid& grid, const CellPaths& paths, const Layout& layou
   }
   for (const Ownership& ownership : layout.ownerships) {
     if (ownership.size() == grid.size()) continue;
-    throw InputError("the layout is of " + std::to_string(ownership.size()) +
-                     " free cells, the map has " + std::to_string(grid.size()));
+    throw InputError("the layout is of " + counted(ownership.size(), "free cell") +
+                     ", the map has " + std::to_string(grid.size()));
   }
   if (layout.phases[phase].ownership >= layout.ownerships.size() ||
       layout.phases[phase].states.size() != paths.size()) {
     throw InputError("phase " + std::to_string(phase) + " of the layout has " +
-                     std::to_string(layout.phases[phase].states.size()) +
-                     " states, expected one for each of " + std::to_string(paths.size()) +
-                     " robots and an ownership that is there");
+                     counted(layout.phases[phase].states.size(), "state") +
+                     ", expected one for each of " + counted(paths.size(), "robot") +
+                     " and an ownership that is there");
   }
 }
 
@@ -247,8 +248,8 @@ Picture drawPlan(const Grid& grid, const CellPaths& paths, const PictureOptions&
 Picture drawInstance(const Grid& grid, const std::vector<Cell>& starts,
                      const std::vector<Cell>& goals, const PictureOptions& options) {
   if (starts.size() != goals.size()) {
-    throw InputError(std::to_string(starts.size()) + " starts and " + std::to_string(goals.size()) +
-                     " goals, expected as many");
+    throw InputError(counted(starts.size(), "start") + " and " + counted(goals.size(), "goal") +
+                     ", expected as many");
   }
   for (std::size_t i = 0; i < starts.size(); ++i) {
     requireInside(grid, i, "the start", starts[i]);

@@ -4,6 +4,7 @@
 
 #include "io/file_bytes.h"
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/wording.h"
 #include "split_mapf/io/plan_json.h"
 
 namespace split_mapf {
@@ -17,7 +18,7 @@ using Json = nlohmann::json;
 
 // A JSON value as a message shows it, cut where it is long.
 std::string shown(const Json& value) {
-  return quoted(value.dump(-1, ' ', true, Json::error_handler_t::replace));
+  return quote(value.dump(-1, ' ', true, Json::error_handler_t::replace));
 }
 
 // Strips what nlohmann-json puts before the reason: "[json.exception...] parse error at ...: ".

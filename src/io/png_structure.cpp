@@ -10,6 +10,7 @@
 #include "io/file_bytes.h"
 #include "io/map_picture.h"
 #include "io/png_image_data.h"
+#include "split_mapf/core/wording.h"
 
 namespace split_mapf {
 namespace {
@@ -69,12 +70,12 @@ class PngChecker {
     const std::uint32_t length = bigEndianAt(bytes_, position);
     std::string type = bytes_.substr(position + 4, 4);
     if (first && type != "IHDR") {
-      failAtByte(path_, position + 4, "read chunk " + quoted(type) + ", expected 'IHDR'");
+      failAtByte(path_, position + 4, "read chunk " + quote(type) + ", expected 'IHDR'");
     }
     if (length > left - 12) {
       failAtByte(path_, bytes_.size(),
                  "read the end of the file, expected the " + std::to_string(length) +
-                     " bytes of chunk " + quoted(type) + " from byte " +
+                     " bytes of chunk " + quote(type) + " from byte " +
                      std::to_string(position + 8) + " on, and its checksum");
     }
     requireChecksum(position, length, type);
@@ -89,7 +90,7 @@ class PngChecker {
     if (actual == bigEndianAt(bytes_, position + 8 + length)) return;
     failAtByte(
         path_, position + 8 + length,
-        "read a checksum that does not fit chunk " + quoted(type) + ", expected an undamaged file");
+        "read a checksum that does not fit chunk " + quote(type) + ", expected an undamaged file");
   }
 
   void keep(std::size_t position, std::uint32_t length, const std::string& type) {
@@ -107,7 +108,7 @@ class PngChecker {
     } else if (ancillary) {
       return;
     } else if (type != "IEND") {
-      failAtByte(path_, position + 4, "read chunk " + quoted(type) + ", expected one of PNG's own");
+      failAtByte(path_, position + 4, "read chunk " + quote(type) + ", expected one of PNG's own");
     }
     found_.essential_bytes.append(bytes_, position, 12 + std::size_t{length});
   }
@@ -147,9 +148,8 @@ class PngChecker {
   void readHeader(std::size_t position, std::uint32_t length) {
     const std::size_t data = position + 8;
     if (length != 13 || found_.width != 0) {
-      failAtByte(
-          path_, position,
-          "read an IHDR chunk of " + std::to_string(length) + " bytes, expected one of 13 bytes");
+      failAtByte(path_, position,
+                 "read an IHDR chunk of " + counted(length, "byte") + ", expected one of 13 bytes");
     }
     found_.width = sideAt(data, "width");
     found_.height = sideAt(data + 4, "height");
@@ -159,8 +159,7 @@ class PngChecker {
     if (channels_ == 0) {
       failAtByte(path_, data + 8,
                  "read colour type " + std::to_string(found_.colour_type) + " of " +
-                     std::to_string(found_.bit_depth) +
-                     " bits, expected a combination that PNG has");
+                     counted(found_.bit_depth, "bit") + ", expected a combination that PNG has");
     }
     if (bytes_[data + 10] != 0 || bytes_[data + 11] != 0) {
       failAtByte(path_, data + 10, "read an unknown compression or filter, expected 0");

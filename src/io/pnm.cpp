@@ -2,6 +2,7 @@
 
 #include "io/file_bytes.h"
 #include "io/map_picture.h"
+#include "split_mapf/core/wording.h"
 
 namespace split_mapf {
 namespace {
@@ -21,11 +22,11 @@ class PnmReader {
 
   MapPicture read() {
     if (!isPnm(bytes_)) {
-      failAtByte(path_, 0, "read " + quoted(bytes_.substr(0, 2)) + ", expected 'P1' to 'P6'");
+      failAtByte(path_, 0, "read " + quote(bytes_.substr(0, 2)) + ", expected 'P1' to 'P6'");
     }
     position_ = 2;
     if (position_ < bytes_.size() && !isBlank(bytes_[position_]) && bytes_[position_] != '#') {
-      fail("read " + quoted(bytes_.substr(0, 3)) + ", expected 'P" + kind_ + "' and white space");
+      fail("read " + quote(bytes_.substr(0, 3)) + ", expected 'P" + kind_ + "' and white space");
     }
     MapPicture picture;
     picture.width = readNumber("the width", 1, kMaxPictureSide);
@@ -81,7 +82,7 @@ class PnmReader {
     const bool ended = end == bytes_.size() || isBlank(bytes_[end]) || bytes_[end] == '#';
     if (end == position_ || !ended || value < least || value > most) {
       const std::string read =
-          position_ == bytes_.size() ? "the end of the file" : quoted(wordHere());
+          position_ == bytes_.size() ? "the end of the file" : quote(wordHere());
       fail("read " + read + ", expected " + what + ", " + std::to_string(least) + " to " +
            std::to_string(most));
     }
@@ -105,7 +106,7 @@ class PnmReader {
     }
     skipBlanksAndComments();
     if (position_ < bytes_.size()) {
-      fail("read " + quoted(wordHere()) + ", expected the end of the file after " +
+      fail("read " + quote(wordHere()) + ", expected the end of the file after " +
            std::to_string(samples_) + " samples");
     }
     return values;
@@ -117,7 +118,7 @@ class PnmReader {
     const char digit = position_ < bytes_.size() ? bytes_[position_] : '\0';
     if (digit != '0' && digit != '1') {
       const std::string read =
-          position_ == bytes_.size() ? "the end of the file" : quoted(std::string(1, digit));
+          position_ == bytes_.size() ? "the end of the file" : quote(std::string(1, digit));
       fail("read " + read + ", expected sample " + countOf(i + 1) + ", 0 or 1");
     }
     ++position_;
@@ -151,7 +152,7 @@ class PnmReader {
     if (position_ == bytes_.size() || !isBlank(bytes_[position_])) {
       fail("read " +
            (position_ == bytes_.size() ? "the end of the file"
-                                       : quoted(bytes_.substr(position_, 1))) +
+                                       : quote(bytes_.substr(position_, 1))) +
            ", expected one white space and the samples");
     }
     ++position_;

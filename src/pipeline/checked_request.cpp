@@ -5,6 +5,7 @@
 #include "pipeline/checked_request.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/named_values.h"
+#include "split_mapf/core/wording.h"
 #include "split_mapf/split/split_options.h"
 
 namespace split_mapf {
@@ -14,14 +15,14 @@ SplitSpec checkSplit(const PlanRequest& request,
                      const std::map<std::string, std::string>& options) {
   SplitSpec split = parseSplitSpec(request.split);
   if (!options.empty() && split.kind != SplitSpec::Kind::kSplit) {
-    throw OptionError("split options need a split, but split '" + request.split +
-                      (split.kind == SplitSpec::Kind::kAuto ? "' may make none" : "' makes none"));
+    throw OptionError("split options need a split, but split " + quote(request.split) +
+                      (split.kind == SplitSpec::Kind::kAuto ? " may make none" : " makes none"));
   }
   if (split.space) return split;
   for (const SplitOptionInfo& option : splitOptions()) {
     if (!option.space_only || options.count(option.name) == 0) continue;
-    throw OptionError("split option '" + option.name + "' is for space splits, but split '" +
-                      request.split + "' has no space part");
+    throw OptionError("split option '" + option.name + "' is for space splits, but split " +
+                      quote(request.split) + " has no space part");
   }
   return split;
 }
@@ -33,22 +34,56 @@ void checkBisection(const CheckedRequest& request) {
   const bool equal =
       std::adjacent_find(ratios.begin(), ratios.end(), std::not_equal_to<>()) == ratios.end();
   if (power && equal) return;
-  throw OptionError("variant=bisection halves again and again: split '" + request.asked.split +
-                    "' should be Kt with K a power of two");
+  throw OptionError("variant=bisection halves again and again: split " +
+                    quote(request.asked.split) + " should be Kt with K a power of two");
+}
+
+std::string sizeFault(const std::string& text, std::size_t most) {
+  return quote(text) + " has " + counted(text.size(), "byte") + "; at most " +
+         std::to_string(most) + " are possible";
+}
+
+void checkList(const std::string& name, const std::vector<std::string>& entries) {
+  if (entries.size() > PlanRequest::kMostOptions) {
+    throw OptionError(name + "s: there are " + std::to_string(entries.size()) + "; at most " +
+                      std::to_string(PlanRequest::kMostOptions) + " are possible");
+  }
+  for (const std::string& entry : entries) {
+    if (entry.size() <= PlanRequest::kMostOptionBytes) continue;
+    throw OptionError(name + " " + sizeFault(entry, PlanRequest::kMostOptionBytes));
+  }
+}
+
+/// Before anything is made of them.
+void checkTexts(const PlanRequest& request) {
+  // A solver's name is looked up only: a long one is an unknown one.
+  if (request.split.size() > PlanRequest::kMostSplitBytes) {
+    throw SplitSpecError("split " + sizeFault(request.split, PlanRequest::kMostSplitBytes));
+  }
+  checkList("solver option", request.solver_options);
+  checkList("split option", request.split_options);
 }
 
 void checkNumbers(const PlanRequest& request) {
-  if (!std::isfinite(request.suboptimality) || request.suboptimality < 1) {
-    throw OptionError("suboptimality " + std::to_string(request.suboptimality) +
-                      " is out of range: a number of at least 1 is expected");
+  // Neither comparison holds for a number that is none.
+  const double w = request.suboptimality;
+  if (!(w >= 1 && w <= PlanRequest::kMostSuboptimality)) {
+    throw OptionError("suboptimality " + numeral(w) + " is out of range: a number from 1 to " +
+                      numeral(PlanRequest::kMostSuboptimality) + " is expected");
+  }
+  if (request.threads > PlanRequest::kMostThreads) {
+    throw OptionError("threads " + std::to_string(request.threads) +
+                      " is out of range: a whole number up to " +
+                      std::to_string(PlanRequest::kMostThreads) + " is expected");
   }
   if (std::isnan(request.time_limit_sec) || request.time_limit_sec < 0) {
-    throw OptionError("time limit " + std::to_string(request.time_limit_sec) +
+    throw OptionError("time limit " + numeral(request.time_limit_sec) +
                       " is out of range: seconds, 0 or more, are expected");
   }
-  if (!std::isfinite(request.refine_sec) || request.refine_sec < 0) {
-    throw OptionError("refinement of " + std::to_string(request.refine_sec) +
-                      " s is out of range: seconds, 0 or more, are expected");
+  if (!(request.refine_sec >= 0 && request.refine_sec <= PlanRequest::kMostSeconds)) {
+    throw OptionError("refinement of " + numeral(request.refine_sec) +
+                      " s is out of range: seconds from 0 to " +
+                      numeral(PlanRequest::kMostSeconds) + " are expected");
   }
 }
 
@@ -57,6 +92,7 @@ void checkNumbers(const PlanRequest& request) {
 CheckedRequest check(const PlanRequest& request, const SolverRegistry& solvers) {
   CheckedRequest checked;
   checked.asked = request;
+  checkTexts(request);
   checkNumbers(request);
   checked.solver = request.solver;
   checked.solver_options.objective = request.objective;

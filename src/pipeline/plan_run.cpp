@@ -10,9 +10,11 @@
 #include "pipeline/auto_choice.h"
 #include "pipeline/refine.h"
 #include "pipeline/stage_words.h"
+#include "pipeline/unsolved_text.h"
 #include "solver/search/replan_singly.h"
 #include "split_mapf/core/compaction.h"
 #include "split_mapf/core/validate.h"
+#include "split_mapf/core/wording.h"
 
 namespace split_mapf {
 namespace {
@@ -73,6 +75,7 @@ PlanReport PlanRun::run() {
       report_.message = "memory ran out in stage " + log_.stage();
     }
   }
+  if (!report_.plan) report_.message += whatIsKnown(report_, request_);
   if (!report_.optimal) report_.certified_by.clear();
   log_.leaveStage();
   report_.stages = log_.stages();
@@ -160,7 +163,9 @@ bool PlanRun::reportUnsolvable() {
   checker_.emplace(instance_.grid().graph(deadline_), deadline_);
   const SolvabilityVerdict verdict =
       checker_->check(instance_.starts(), instance_.goals(), deadline_);
+  report_.solvable = verdict.answer == Solvability::kSolvable;
   if (verdict.answer != Solvability::kUnsolvable) return false;
+  report_.refusal = verdict;
   report_.termination = Termination::kUnsolvable;
   report_.message = explain(verdict, instance_.grid());
   if (verdict.refusal == RefusalKind::kDifferentComponents) {
@@ -414,8 +419,8 @@ void PlanRun::accept(Plan plan) {
   const std::vector<Violation> violations = validate(instance_, plan);
   if (!violations.empty()) {
     throw std::logic_error("the pipeline made an invalid plan with " +
-                           std::to_string(violations.size()) +
-                           " violations; the first: " + violations.front().message);
+                           counted(violations.size(), "violation") +
+                           "; the first: " + violations.front().message);
   }
   const double now_sec = log_.elapsedSec();
   if (!report_.plan) report_.first_plan_sec = now_sec;

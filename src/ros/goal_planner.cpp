@@ -1,11 +1,17 @@
 #include "split_mapf/ros/goal_planner.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <utility>
 
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/refusals.h"
+#include "split_mapf/core/wording.h"
 #include "split_mapf/ros/layout_messages.h"
 #include "split_mapf/ros/plan_messages.h"
+#include "split_mapf/ros/result_limits.h"
+#include "split_mapf/ros/unsolvable_text.h"
 
 namespace split_mapf {
 namespace {
@@ -24,13 +30,32 @@ auto withGoalErrors(const Part& part) {
   }
 }
 
+/// Cells of each robot's path at least: the straight ways.
+std::vector<std::uint32_t> leastPoints(const Instance& instance) {
+  std::vector<std::uint32_t> points;
+  for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {
+    const Cell from = instance.grid().cellOf(instance.start(robot));
+    const Cell to = instance.grid().cellOf(instance.goal(robot));
+    points.push_back(static_cast<std::uint32_t>(std::abs(from.x - to.x) + std::abs(from.y - to.y)) +
+                     1);
+  }
+  return points;
+}
+
+std::vector<std::uint32_t> pointsOf(const Plan& plan) {
+  std::vector<std::uint32_t> points;
+  for (const Path& path : plan.paths)
+    points.push_back(static_cast<std::uint32_t>(costOf(path)) + 1);
+  return points;
+}
+
 std::string describeSuccess(const PlanReport& report) {
   char text[256];
   std::snprintf(text, sizeof text,
-                "valid plan for %u robots in %.2f s: makespan %u (lower bound %u), sum of costs "
+                "valid plan for %s in %.2f s: makespan %u (lower bound %u), sum of costs "
                 "%llu (lower bound %llu)",
-                report.robots, report.runtime_sec, report.makespan, report.makespan_lower_bound,
-                static_cast<unsigned long long>(report.sum_of_costs),
+                counted(report.robots, "robot").c_str(), report.runtime_sec, report.makespan,
+                report.makespan_lower_bound, static_cast<unsigned long long>(report.sum_of_costs),
                 static_cast<unsigned long long>(report.sum_of_costs_lower_bound));
   return text;
 }
@@ -41,6 +66,14 @@ std::string sentenceOf(const PlanReport& report) {
 }
 
 }  // namespace
+
+void GoalPlanner::requireFits(const PreparedGoal& goal, const std::vector<std::uint32_t>& points,
+                              bool least) const {
+  requireSendable({goal.robots.ids, points, goal.grid.geometry.frame()}, goal.options.fill_poses,
+                  options_.publish_paths, least);
+  const std::uint32_t makespan = *std::max_element(points.begin(), points.end()) - 1;
+  requireTimesFit(makespan, goal.options.step_duration_sec, ros::Time::now());
+}
 
 GoalOptions GoalPlanner::readOptions(const PlanOptions& asked) const {
   return withGoalErrors([&] {
@@ -71,7 +104,7 @@ PreparedGoal GoalPlanner::prepareUntil(const boost::shared_ptr<const PlanPathsGo
   PlanningGrid grid = makePlanningGrid(*map, options.occupancy, deadline);
   requireMapCells(options, grid.geometry.info().resolution);
   doing = "while the robots were being placed";
-  PlacedRobots robots = placeRobots(goal->robots, grid, transformer_.forGoal(deadline));
+  PlacedRobots robots = placeRobots(goal->robots, grid, *map, transformer_.forGoal(deadline));
   if (options_.publish_paths) distinctRosNames(robots.ids);
   Instance instance(grid.grid, robots.starts, robots.goals);
   doing = "while it was being checked whether goals can be reached";
@@ -81,6 +114,7 @@ PreparedGoal GoalPlanner::prepareUntil(const boost::shared_ptr<const PlanPathsGo
 
 GoalAnswer GoalPlanner::plan(const PreparedGoal& goal, const Deadline& deadline,
                              const ProgressCallback& progress) const {
+  withGoalErrors([&] { requireFits(goal, leastPoints(goal.instance), true); });
   // Whether a space split fits is known only with the map.
   const PlanReport report = withGoalErrors([&] {
     return planner_.plan(goal.instance, goal.options.plan, deadline, {progress, nullptr});
@@ -89,7 +123,14 @@ GoalAnswer GoalPlanner::plan(const PreparedGoal& goal, const Deadline& deadline,
   answer.outcome = outcomeOf(report.termination);
   answer.result.message = sentenceOf(report);
   answer.result.statistics = statisticsOf(report);
+  if (report.refusal) {
+    UnsolvableAnswer proof =
+        describeUnsolvable(refusalsOf(goal, *report.refusal, deadline), goal.robots.ids, goal.grid);
+    answer.result.message = std::move(proof.message);
+    answer.result.faults = std::move(proof.faults);
+  }
   if (report.plan) {
+    withGoalErrors([&] { requireFits(goal, pointsOf(*report.plan), false); });
     answer.result.plan = toMessage(report, goal.robots.ids, goal.grid,
                                    goal.options.step_duration_sec, ros::Time::now());
     answer.layout = layoutOf(report, goal.grid, answer.result.plan.header.stamp);
@@ -101,6 +142,15 @@ GoalAnswer GoalPlanner::plan(const PreparedGoal& goal, const Deadline& deadline,
   }
   answer.result.outcome = codeOf(answer.outcome);
   return answer;
+}
+
+std::vector<SolvabilityVerdict> refusalsOf(const PreparedGoal& goal,
+                                           const SolvabilityVerdict& first,
+                                           const Deadline& deadline) {
+  std::vector<SolvabilityVerdict> all = findRefusals(goal.instance, deadline);
+  // The deadline may have come between.
+  if (all.empty()) all.push_back(first);
+  return all;
 }
 
 GoalAnswer refusal(const GoalError& error) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/wording.h"
 #include "split_mapf/ros/markers.h"
 
 namespace split_mapf {
@@ -38,8 +39,8 @@ void requireConsistent(const PlanLayout& layout) {
   };
   for (const RegionOwnership& ownership : layout.ownerships) {
     if (ownership.regions.size() == cells) continue;
-    throw InputError("an ownership of the layout has " + std::to_string(ownership.regions.size()) +
-                     " cells, but its grid has " + std::to_string(cells));
+    throw InputError("an ownership of the layout has " + counted(ownership.regions.size(), "cell") +
+                     ", but its grid has " + std::to_string(cells));
   }
   require_cells(layout.buffers);
   for (const LayoutPhase& phase : layout.phases) {

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <ros/console.h>
+
 #include "split_mapf/io/map_file.h"
 #include "split_mapf/ros/orientation.h"
 #include "split_mapf/ros/outcome.h"
@@ -58,6 +60,11 @@ std::shared_ptr<const nav_msgs::OccupancyGrid> MapSource::choose(
 }
 
 void MapSource::take(std::shared_ptr<const nav_msgs::OccupancyGrid> map) {
+  if (map->info.width == 0 || map->info.height == 0) {
+    ROS_WARN("an empty map of %ux%u cells on %s is left out", map->info.width, map->info.height,
+             topic_.c_str());
+    return;
+  }
   const std::lock_guard<std::mutex> lock(mutex_);
   latest_ = std::move(map);
 }

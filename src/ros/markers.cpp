@@ -5,6 +5,7 @@
 #include <string>
 
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/wording.h"
 
 namespace split_mapf {
 namespace {
@@ -54,17 +55,17 @@ geometry_msgs::Point lifted(geometry_msgs::Point point, double height) {
 
 void requireDrawable(const MultiRobotPlan& plan) {
   if (!std::isfinite(plan.step_duration) || plan.step_duration <= 0) {
-    throw InputError("the plan's step_duration is " + std::to_string(plan.step_duration) +
+    throw InputError("the plan's step_duration is " + numeral(plan.step_duration) +
                      " s; a number > 0 is needed");
   }
   const std::uint64_t cells = std::uint64_t{plan.grid.width} * plan.grid.height;
   for (const RobotPath& path : plan.paths) {
     if (path.cells.empty()) {
-      throw InputError("the path of robot '" + path.robot_id + "' is empty");
+      throw InputError("the path of robot " + quote(path.robot_id) + " is empty");
     }
     for (const std::uint32_t cell : path.cells) {
       if (cell < cells) continue;
-      throw InputError("the path of robot '" + path.robot_id + "' enters cell " +
+      throw InputError("the path of robot " + quote(path.robot_id) + " enters cell " +
                        std::to_string(cell) + ", but the grid has " + std::to_string(cells));
     }
   }

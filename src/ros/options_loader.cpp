@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 #include <set>
-#include <sstream>
 
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/wording.h"
 #include "split_mapf/ros/parameter_reader.h"
 
 namespace split_mapf {
@@ -13,23 +13,20 @@ namespace {
 
 constexpr std::int64_t kMaxUint32 = std::numeric_limits<std::int32_t>::max();
 
-std::string toText(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
+// [s] Years; what lies beyond is a mistake of units.
+constexpr double kMostSeconds = 1e9;
+// [m] A thousand kilometres.
+constexpr double kMostMetres = 1e6;
+// [s] A microsecond and eleven days. That a whole plan fits into ROS time is asked when it is
+// known.
+constexpr double kLeastStep = 1e-6;
+constexpr double kMostStep = 1e6;
 
-void requirePositive(double value, const std::string& name) {
-  if (!std::isfinite(value) || value <= 0) {
-    throw OptionError(name + " " + toText(value) + " is out of range: a number > 0 is expected");
-  }
-}
-
-void requireNotNegative(double value, const std::string& name) {
-  if (!std::isfinite(value) || value < 0) {
-    throw OptionError(name + " " + toText(value) +
-                      " is out of range: a finite number >= 0 is expected");
-  }
+/// Refuses what is no number, too.
+void requireWithin(double value, const std::string& name, double least, double most) {
+  if (value >= least && value <= most) return;
+  throw OptionError(name + " " + numeral(value) + " is out of range: a number from " +
+                    numeral(least) + " to " + numeral(most) + " is expected");
 }
 
 /// 0 = the server's value, a negative number = explicitly zero.
@@ -47,11 +44,11 @@ void checkThreshold(int threshold) {
 }
 
 void checkNumbers(const GoalOptions& options) {
-  requireNotNegative(options.plan.time_limit_sec, "time_limit");
-  requireNotNegative(options.plan.refine_sec, "refine_time");
-  requireNotNegative(options.robot_radius_m, "robot_radius");
-  requireNotNegative(options.cell_size_m, "cell_size");
-  requirePositive(options.step_duration_sec, "step_duration");
+  requireWithin(options.plan.time_limit_sec, "time_limit", 0, kMostSeconds);
+  requireWithin(options.plan.refine_sec, "refine_time", 0, kMostSeconds);
+  requireWithin(options.robot_radius_m, "robot_radius", 0, kMostMetres);
+  requireWithin(options.cell_size_m, "cell_size", 0, kMostMetres);
+  requireWithin(options.step_duration_sec, "step_duration", kLeastStep, kMostStep);
   checkThreshold(options.occupancy.occupied_threshold);
 }
 
@@ -168,16 +165,16 @@ GoalOptions mergeOptions(const PlanOptions& asked, const GoalOptions& defaults) 
 
 void requireMapCells(const GoalOptions& options, double resolution_m) {
   if (options.robot_radius_m != 0) {
-    throw OptionError("robot_radius " + toText(options.robot_radius_m) +
+    throw OptionError("robot_radius " + numeral(options.robot_radius_m) +
                       " m is not available yet: only point robots (0) can be planned for");
   }
   // A resolution comes as a 32-bit number, a cell size as a 64-bit one.
   const bool is_map_cell = options.cell_size_m == 0 ||
                            std::abs(options.cell_size_m - resolution_m) <= 1e-6 * resolution_m;
   if (!is_map_cell) {
-    throw OptionError("cell_size " + toText(options.cell_size_m) +
+    throw OptionError("cell_size " + numeral(options.cell_size_m) +
                       " m is not available yet: a planning cell is a map cell of " +
-                      toText(resolution_m) + " m (0 asks for it)");
+                      numeral(resolution_m) + " m (0 asks for it)");
   }
 }
 

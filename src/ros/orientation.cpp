@@ -9,6 +9,10 @@ bool isUnitQuaternion(const geometry_msgs::Quaternion& q) {
   return std::isfinite(length) && std::abs(length - 1) <= 0.01;
 }
 
+bool isAllZero(const geometry_msgs::Quaternion& q) {
+  return q.x == 0 && q.y == 0 && q.z == 0 && q.w == 0;
+}
+
 double yawOf(const geometry_msgs::Quaternion& q) {
   return std::atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z));
 }

@@ -2,13 +2,18 @@
 
 #include <utility>
 
+#include "split_mapf/core/wording.h"
+
 namespace split_mapf {
 namespace {
 
-std::string summarise(const std::vector<RobotFault>& faults) {
-  std::string text = faults.front().message;
-  if (faults.size() > 1) text += " (and " + std::to_string(faults.size() - 1) + " more faults)";
-  return text;
+std::string summarise(const std::string& first, std::size_t total) {
+  if (total == 1) return first;
+  std::string text = first + " (and " + counted(total - 1, "more fault");
+  if (total > FaultList::kMostFaults) {
+    text += "; the first " + std::to_string(FaultList::kMostFaults) + " are listed";
+  }
+  return text + ")";
 }
 
 }  // namespace
@@ -89,8 +94,10 @@ RobotFault makeFault(const std::string& robot_id, Outcome code, const std::strin
   return fault;
 }
 
-GoalError::GoalError(std::vector<RobotFault> faults)
-    : std::runtime_error(summarise(faults)),
+GoalError::GoalError(const FaultList& faults) : GoalError(faults.first(), faults.total()) {}
+
+GoalError::GoalError(std::vector<RobotFault> faults, std::size_t total)
+    : std::runtime_error(summarise(faults.front().message, total)),
       outcome_(static_cast<Outcome>(faults.front().code)),
       faults_(std::move(faults)) {}
 

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/wording.h"
 
 namespace split_mapf {
 namespace {
@@ -12,10 +13,9 @@ using XmlRpc::XmlRpcValue;
 [[noreturn]] void refuse(const std::string& name, const XmlRpcValue& value,
                          const std::string& expected) {
   std::ostringstream text;
-  text << "parameter ~" << name << " is ";
   value.write(text);
-  text << "; " << expected << " is expected";
-  throw OptionError(text.str());
+  throw OptionError("parameter ~" + name + " is " + shown(text.str()) + "; " + expected +
+                    " is expected");
 }
 
 }  // namespace

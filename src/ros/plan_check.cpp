@@ -8,10 +8,14 @@
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/validate.h"
+#include "split_mapf/core/wording.h"
 #include "split_mapf/ros/outcome.h"
 
 namespace split_mapf {
 namespace {
+
+// An answer that somebody may read.
+constexpr std::size_t kMostViolations = 1000;
 
 using CellPaths = std::vector<std::vector<Cell>>;
 
@@ -45,13 +49,13 @@ class ViolationWriter {
 
  private:
   std::string nameOf(std::uint32_t robot) const {
-    return "robot '" + plan_.paths[robot].robot_id + "'";
+    return "robot " + quote(plan_.paths[robot].robot_id);
   }
   std::string at(std::uint32_t robot, std::uint32_t step) const {
     const std::vector<Cell>& path = paths_[robot];
     if (path.empty()) return "no cell";
     const Cell cell = path[std::min<std::size_t>(step, path.size() - 1)];
-    return "cell " + grid_.geometry.describe(cell);
+    return "cell " + grid_.geometry.describeWithMetres(cell);
   }
 
   const MultiRobotPlan& plan_;
@@ -66,9 +70,9 @@ void checkGrid(const MultiRobotPlan& plan, const PlanningGrid& grid,
       plan.grid.resolution != of_map.resolution) {
     found.push_back("the plan's grid of " + std::to_string(plan.grid.width) + "x" +
                     std::to_string(plan.grid.height) + " cells of " +
-                    std::to_string(plan.grid.resolution) + " m is not the map's of " +
+                    numeral(plan.grid.resolution) + " m is not the map's of " +
                     std::to_string(of_map.width) + "x" + std::to_string(of_map.height) +
-                    " cells of " + std::to_string(of_map.resolution) + " m");
+                    " cells of " + numeral(of_map.resolution) + " m");
     return;
   }
   try {
@@ -76,8 +80,8 @@ void checkGrid(const MultiRobotPlan& plan, const PlanningGrid& grid,
     const geometry_msgs::Point ours = grid.geometry.centreOf({0, 0});
     const geometry_msgs::Point theirs = geometry.centreOf({0, 0});
     if (geometry.frame() != grid.geometry.frame()) {
-      found.push_back("the plan's frame '" + geometry.frame() + "' is not the map's frame '" +
-                      grid.geometry.frame() + "'");
+      found.push_back("the plan's frame " + quote(geometry.frame()) + " is not the map's frame " +
+                      quote(grid.geometry.frame()));
     } else if (std::hypot(ours.x - theirs.x, ours.y - theirs.y) > 0.01 * of_map.resolution ||
                std::abs(std::remainder(geometry.yaw() - grid.geometry.yaw(), 2 * M_PI)) > 1e-4) {
       found.emplace_back("the plan's grid has another origin than the map");
@@ -91,7 +95,7 @@ void checkRobotIds(const MultiRobotPlan& plan, std::vector<std::string>& found) 
   std::set<std::string> ids;
   for (const RobotPath& path : plan.paths) {
     if (!ids.insert(path.robot_id).second) {
-      found.push_back("robot '" + path.robot_id + "' has more than one path");
+      found.push_back("robot " + quote(path.robot_id) + " has more than one path");
     }
   }
 }
@@ -148,6 +152,11 @@ std::vector<std::string> findViolations(const MultiRobotPlan& plan, const Planni
   checkRobotIds(plan, found);
   checkCosts(plan, found);
   checkPaths(plan, grid, found);
+  if (found.size() > kMostViolations) {
+    const std::size_t more = found.size() - kMostViolations;
+    found.resize(kMostViolations);
+    found.push_back("and " + counted(more, "more violation"));
+  }
   return found;
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/wording.h"
 #include "split_mapf/ros/orientation.h"
 
 namespace split_mapf {
@@ -116,9 +117,9 @@ std::vector<std::string> distinctRosNames(const std::vector<std::string>& robot_
     names.push_back(rosNameOf(id));
     const auto [owner, is_new] = owners.emplace(names.back(), id);
     if (!is_new) {
-      throw OptionError("publish_paths: robots '" + owner->second + "' and '" + id +
-                        "' would both publish on " + names.back() +
-                        "/path; ids have to differ in letters, digits or '_'");
+      throw OptionError("publish_paths: robots " + quote(owner->second) + " and " + quote(id) +
+                        " would both publish on " + shown(names.back() + "/path") +
+                        "; ids have to differ in letters, digits or '_'");
     }
   }
   return names;

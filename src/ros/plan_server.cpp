@@ -3,9 +3,12 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <stdexcept>
 #include <utility>
 
 #include <ros/console.h>
+
+#include "split_mapf/core/wording.h"
 
 namespace split_mapf {
 namespace {
@@ -43,7 +46,7 @@ PlanServer::PlanServer(const ros::NodeHandle& private_node, const GoalPlanner& p
       server_(
           private_node, "plan_paths",
           [this](const PlanActionServer::GoalHandle& goal) { onGoal(goal); },
-          [this](const PlanActionServer::GoalHandle& goal) { onCancel(goal); }, false) {
+          [this](const PlanActionServer::GoalHandle& goal) { onCancel(goal); }) {
   feedback_timer_ = private_node.createWallTimer(
       ros::WallDuration(kFeedbackPeriodSec),
       [this](const ros::WallTimerEvent& /*event*/) { publishFeedback(); });
@@ -84,9 +87,8 @@ void PlanServer::onGoal(PlanActionServer::GoalHandle handle) {
     if (stop_all_->requested()) {
       why_not = "the node is shutting down";
     } else if (admitted >= limits_.admitted) {
-      why_not = std::to_string(admitted) +
-                " goals are active already, as many as max_queued_goals" +
-                " allows; try again when one has ended";
+      why_not = counted(admitted, "goal") + (admitted == 1 ? " is" : " are") +
+                " active already, as many as max_queued_goals allows; try again when one has ended";
     } else {
       goals_.push_back(std::make_unique<ActiveGoal>(handle, next_ticket_++, stop_all_));
       ActiveGoal& goal = *goals_.back();
@@ -119,7 +121,7 @@ void PlanServer::serve(ActiveGoal& goal) {
     finish(goal, answer);
   } catch (const std::exception& error) {
     // Memory for the message, most likely; the goal's state stands already.
-    ROS_ERROR("goal %s: its result could not be sent: %s", goal.id().c_str(), error.what());
+    ROS_ERROR("goal %s: its result could not be sent: %s", shown(goal.id()).c_str(), error.what());
   }
 }
 
@@ -129,7 +131,13 @@ GoalAnswer PlanServer::answerWhatever(ActiveGoal& goal) {
   } catch (const GoalError& error) {
     return refusal(error);
   } catch (const std::bad_alloc&) {
-    return refusal(Outcome::kMemoryLimit, "memory ran out");
+    return refusal(
+        Outcome::kMemoryLimit,
+        "memory ran out before a plan was found; fewer robots or a smaller map need less");
+  } catch (const std::length_error&) {
+    return refusal(Outcome::kMemoryLimit,
+                   "memory for more than there can be was asked for; fewer robots or a smaller map "
+                   "need less");
   } catch (const std::exception& error) {
     return refusal(Outcome::kInternalError, std::string("internal error: ") + error.what());
   } catch (...) {
@@ -168,9 +176,18 @@ GoalAnswer PlanServer::planInTurn(ActiveGoal& goal, const PreparedGoal& prepared
   GoalAnswer answer = planner_.plan(
       prepared, deadline, [&goal](const PlanProgress& progress) { goal.update(progress); });
   if (!answer.result.plan.paths.empty()) {
-    publisher_.publish(answer.result.plan, answer.layout, prepared.grid);
+    publish(answer, prepared.grid);
   }
   return answer;
+}
+
+void PlanServer::publish(const GoalAnswer& answer, const PlanningGrid& grid) {
+  try {
+    publisher_.publish(answer.result.plan, answer.layout, grid);
+  } catch (const std::exception& error) {
+    // Who asked for the plan gets it all the same.
+    ROS_ERROR("the plan could not be published: %s", error.what());
+  }
 }
 
 GoalAnswer PlanServer::stopped(const ActiveGoal& goal, const Deadline& deadline,
@@ -195,7 +212,8 @@ void PlanServer::finish(ActiveGoal& goal, const GoalAnswer& answer) {
   }
   // Before the client hears of it, so that it can send the next goal at once.
   goal.left_queue = true;
-  ROS_INFO("goal %s: %s: %s", goal.id().c_str(), outcome.c_str(), answer.result.message.c_str());
+  ROS_INFO("goal %s: %s: %s", shown(goal.id()).c_str(), outcome.c_str(),
+           answer.result.message.c_str());
   goal.finish(answer);
 }
 

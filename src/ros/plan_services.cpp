@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <memory>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -9,6 +10,7 @@
 
 #include "split_mapf/core/solvability.h"
 #include "split_mapf/ros/plan_check.h"
+#include "split_mapf/ros/unsolvable_text.h"
 
 namespace split_mapf {
 namespace {
@@ -91,10 +93,12 @@ bool PlanServices::checkSolvable(CheckSolvable::Request& request,
     const SolvabilityVerdict verdict = split_mapf::checkSolvable(prepared.instance, deadline);
     outcome = outcomeOf(verdict.answer);
     if (outcome == Outcome::kTimeout) throw PreparationStopped("while a proof was being searched");
-    response.reason = explain(verdict, prepared.instance.grid());
-    for (const std::uint32_t robot : verdict.robots) {
-      response.faults.push_back(
-          makeFault(prepared.robots.ids[robot], outcome, "is one of the robots that cannot pass"));
+    response.reason = explain(verdict);
+    if (outcome == Outcome::kUnsolvable) {
+      UnsolvableAnswer proof = describeUnsolvable(refusalsOf(prepared, verdict, deadline),
+                                                  prepared.robots.ids, prepared.grid);
+      response.reason = std::move(proof.message);
+      response.faults = std::move(proof.faults);
     }
   } catch (const PreparationStopped& stop) {
     const bool ending = stop_->requested();
@@ -106,6 +110,9 @@ bool PlanServices::checkSolvable(CheckSolvable::Request& request,
     outcome = error.outcome();
     response.reason = error.what();
     response.faults = error.faults();
+  } catch (const std::bad_alloc&) {
+    outcome = Outcome::kMemoryLimit;
+    response.reason = "memory ran out; a smaller map needs less";
   } catch (const std::exception& error) {
     response.reason = error.what();
   }
@@ -116,6 +123,9 @@ bool PlanServices::checkSolvable(CheckSolvable::Request& request,
 
 bool PlanServices::listSolvers(ListSolvers::Request& /*request*/,
                                ListSolvers::Response& response) const {
+  response.names.emplace_back("auto");
+  response.descriptions.emplace_back(
+      "chooses a solver, and with split auto a split, by what the instance is like");
   for (const std::string& name : solvers_.names()) {
     const SolverInfo& info = solvers_.info(name);
     std::string description = info.description;

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <sstream>
 #include <vector>
 
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/wording.h"
 #include "split_mapf/ros/orientation.h"
 #include "split_mapf/ros/outcome.h"
+#include "split_mapf/ros/text_limits.h"
 
 namespace split_mapf {
 namespace {
@@ -15,15 +18,16 @@ namespace {
 // How far the origin's axis may lean before it counts as turned about x or y.
 constexpr double kLeanTolerance = 1e-3;
 
+// [m] Within these, a centre of a cell differs from its neighbour's in a double.
+constexpr float kLeastResolution = 1e-6F;
+constexpr float kMostResolution = 1e6F;
+constexpr double kFarthestOrigin = 1e9;
+
 // Cell coordinates are signed 32-bit numbers; Grid has a lower limit of its own.
 constexpr std::uint32_t kMaxSide = 1U << 30;
 
 [[noreturn]] void refuse(const std::string& why) {
   throw GoalError(Outcome::kInvalidMap, "map: " + why);
-}
-
-bool isAllZero(const geometry_msgs::Quaternion& q) {
-  return q.x == 0 && q.y == 0 && q.z == 0 && q.w == 0;
 }
 
 nav_msgs::MapMetaData checked(nav_msgs::MapMetaData info) {
@@ -35,13 +39,18 @@ nav_msgs::MapMetaData checked(nav_msgs::MapMetaData info) {
     refuse("it has " + std::to_string(info.width) + "x" + std::to_string(info.height) +
            " cells; a side may have at most " + std::to_string(kMaxSide));
   }
-  if (!std::isfinite(info.resolution) || info.resolution <= 0) {
-    refuse("its resolution is " + std::to_string(info.resolution) +
-           "; a positive number of metres is needed");
+  if (!(info.resolution >= kLeastResolution && info.resolution <= kMostResolution)) {
+    refuse("its resolution is " + numeral(info.resolution) + "; metres from " +
+           numeral(kLeastResolution) + " to " + numeral(kMostResolution) + " are needed");
   }
   const geometry_msgs::Point& at = info.origin.position;
   if (!std::isfinite(at.x) || !std::isfinite(at.y) || !std::isfinite(at.z)) {
     refuse("the position of its origin is not finite");
+  }
+  if (std::abs(at.x) > kFarthestOrigin || std::abs(at.y) > kFarthestOrigin ||
+      std::abs(at.z) > kFarthestOrigin) {
+    refuse("its origin lies at (" + numeral(at.x) + ", " + numeral(at.y) + ", " + numeral(at.z) +
+           ") m; at most " + numeral(kFarthestOrigin) + " m from zero are possible");
   }
   geometry_msgs::Quaternion& turn = info.origin.orientation;
   if (isAllZero(turn)) turn.w = 1;
@@ -53,6 +62,8 @@ nav_msgs::MapMetaData checked(nav_msgs::MapMetaData info) {
 }
 
 std::string plainFrame(const std::string& frame_id) {
+  const std::string fault = faultOfName(frame_id);
+  if (!fault.empty()) refuse("its frame_id " + quote(frame_id) + " " + fault);
   const std::string frame = stripSlash(frame_id);
   return frame.empty() ? "map" : frame;
 }
@@ -100,6 +111,13 @@ Cell MapGeometry::cellOf(std::uint32_t index) const {
           static_cast<std::int32_t>(info_.height - 1 - row)};
 }
 
+std::string MapGeometry::describeWithMetres(Cell cell) const {
+  const geometry_msgs::Point centre = centreOf(cell);
+  char metres[64];
+  std::snprintf(metres, sizeof metres, " at (%.3f, %.3f) m", centre.x, centre.y);
+  return describe(cell) + metres;
+}
+
 std::string MapGeometry::describe(Cell cell) const {
   return toString(Cell{cell.x, static_cast<std::int32_t>(info_.height) - 1 - cell.y});
 }
@@ -110,9 +128,9 @@ PlanningGrid makePlanningGrid(const nav_msgs::OccupancyGrid& map, const Occupanc
   const std::size_t width = map.info.width;
   const std::size_t height = map.info.height;
   if (map.data.size() != width * height) {
-    refuse("its data has " + std::to_string(map.data.size()) + " cells, but " +
-           std::to_string(width) + "x" + std::to_string(height) + " = " +
-           std::to_string(width * height) + " are announced");
+    refuse("its data has " + counted(map.data.size(), "cell") + ", but " + std::to_string(width) +
+           "x" + std::to_string(height) + " = " + std::to_string(width * height) +
+           " are announced");
   }
   requireRule(rule);
   std::vector<bool> top_down(map.data.size());

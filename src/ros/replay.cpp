@@ -9,6 +9,7 @@
 #include <ros/topic_manager.h>
 
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/wording.h"
 #include "split_mapf/ros/layout_messages.h"
 #include "split_mapf/ros/parameter_reader.h"
 
@@ -22,8 +23,8 @@ constexpr double kFirstLookSec = 3.0;
 
 void requireAtLeast(double least, const char* name, double value) {
   if (!std::isfinite(value) || value < least) {
-    throw OptionError("parameter ~" + std::string(name) + " is " + std::to_string(value) +
-                      "; a number >= " + std::to_string(least) + " is expected");
+    throw OptionError("parameter ~" + std::string(name) + " is " + numeral(value) +
+                      "; a number >= " + numeral(least) + " is expected");
   }
 }
 
@@ -196,7 +197,7 @@ std::string Replay::obey(const ReplayControl::Request& request) {
     case ReplayControl::Request::SPEED:
       if (request.value <= 0) throw InputError("SPEED needs a value > 0");
       timeline_.setSpeed(request.value);
-      return "playing at " + std::to_string(request.value) + " times the plan's pace";
+      return "playing at " + numeral(request.value) + " times the plan's pace";
     case ReplayControl::Request::LOOP:
       timeline_.setLoop(request.value != 0);
       return timeline_.loop() ? "starting again at the end" : "stopping at the end";

@@ -8,23 +8,17 @@
 #include <unordered_map>
 #include <utility>
 
-#include <tf2/exceptions.h>
-
 #include "split_mapf/core/grid_parts.h"
+#include "split_mapf/core/wording.h"
 #include "split_mapf/ros/orientation.h"
 #include "split_mapf/ros/outcome.h"
+#include "split_mapf/ros/text_limits.h"
 
 namespace split_mapf {
 namespace {
 
 // Closer than this, two positions are the same: transforms round.
 constexpr double kSamePositionMetres = 1e-6;
-
-/// A fault and the robot it belongs to, so that faults can be put in the goal's order.
-struct IndexedFault {
-  std::size_t robot;
-  RobotFault fault;
-};
 
 bool isFinite(const geometry_msgs::Point& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
@@ -36,31 +30,52 @@ std::string toText(const geometry_msgs::Point& p) {
   return text;
 }
 
+/// What is wrong with a pose on its own, as it follows "its start"; empty when nothing is.
+std::string faultOfPose(const geometry_msgs::PoseStamped& stamped) {
+  const std::string fault = faultOfName(stamped.header.frame_id);
+  if (!fault.empty())
+    return " has a frame_id that " + fault + ": " + quote(stamped.header.frame_id);
+  if (!isFinite(stamped.pose.position)) {
+    return " has no finite position: three numbers are needed";
+  }
+  const geometry_msgs::Quaternion& heading = stamped.pose.orientation;
+  if (isAllZero(heading) || isUnitQuaternion(heading)) return "";
+  return " has no valid orientation: a unit quaternion is needed, or all zero for no heading";
+}
+
 /// Finds the cells of a goal's robots and collects what is wrong with them.
 class Placement {
  public:
   Placement(const std::vector<RobotTask>& tasks, const PlanningGrid& grid,
-            const PoseTransform& transform)
-      : tasks_(tasks), grid_(grid), transform_(transform) {}
+            const nav_msgs::OccupancyGrid& map, const PoseTransform& transform)
+      : tasks_(tasks), grid_(grid), map_(map), transform_(transform) {}
 
   PlacedRobots run() {
     nameRobots();
     placed_.starts = locateAll("start", &RobotTask::start, Outcome::kDuplicateStart);
     placed_.goals = locateAll("goal", &RobotTask::goal, Outcome::kDuplicateGoal);
-    if (!faults_.empty()) throw GoalError(sortedFaults());
+    if (!faults_.empty()) throw GoalError(faults_);
     return std::move(placed_);
   }
 
  private:
   void report(std::size_t robot, Outcome code, const std::string& what) {
     const std::string& id = placed_.ids[robot];
-    faults_.push_back({robot, makeFault(id, code, "robot '" + id + "': " + what)});
+    faults_.add(robot, makeFault(id, code, "robot " + quote(id) + ": " + what));
   }
 
   void nameRobots() {
     std::map<std::string, std::vector<std::size_t>> owners;
     for (std::size_t robot = 0; robot < tasks_.size(); ++robot) {
       const std::string& id = tasks_[robot].robot_id;
+      const std::string fault = faultOfName(id);
+      if (!fault.empty()) {
+        placed_.ids.push_back(shown(id));
+        report(robot, Outcome::kInvalidOption,
+               "its robot_id " + fault + " (robot " + std::to_string(robot) +
+                   " of the goal, counted from 0)");
+        continue;
+      }
       placed_.ids.push_back(id.empty() ? std::to_string(robot) : id);
       owners[placed_.ids.back()].push_back(robot);
     }
@@ -89,12 +104,9 @@ class Placement {
   /// The position in the map's frame; nothing when it does not lie in a free cell.
   std::optional<geometry_msgs::Point> locate(std::size_t robot, const std::string& role,
                                              const geometry_msgs::PoseStamped& stamped) {
-    if (!isFinite(stamped.pose.position) || !isUnitQuaternion(stamped.pose.orientation)) {
-      report(robot, Outcome::kInvalidPose,
-             "its " + role +
-                 (isFinite(stamped.pose.position) ? " has no valid orientation: a unit quaternion"
-                                                  : " has no finite position: three numbers") +
-                 " is needed");
+    const std::string fault = faultOfPose(stamped);
+    if (!fault.empty()) {
+      report(robot, Outcome::kInvalidPose, "its " + role + fault);
       return std::nullopt;
     }
     const std::string from = stripSlash(stamped.header.frame_id);
@@ -103,10 +115,11 @@ class Placement {
     if (!from.empty() && from != into) {
       try {
         point = transform_(stamped, into);
-      } catch (const tf2::TransformException& error) {
+      } catch (const TransformFailure& error) {
         report(robot, Outcome::kTransformFailed,
-               "its " + role + " in frame '" + from +
-                   "' cannot be transformed into the map's frame '" + into + "': " + error.what());
+               "its " + role + " in frame " + quote(from) +
+                   " cannot be transformed into the map's frame " + quote(into) + ": " +
+                   error.what());
         return std::nullopt;
       }
     }
@@ -124,9 +137,19 @@ class Placement {
     } else {
       report(robot, Outcome::kBlockedCell,
              "its " + role + " " + toText(point) + " lies in cell " +
-                 grid_.geometry.describe(cell) + ", which is blocked; a free cell is needed");
+                 grid_.geometry.describe(cell) + ", which is " + whyBlocked(cell));
     }
     return false;
+  }
+
+  std::string whyBlocked(Cell cell) const {
+    const std::int8_t value = map_.data[grid_.geometry.indexOf(cell)];
+    if (value < 0) {
+      return "unknown; a free cell is needed, or the option unknown_space 2, which lets robots "
+             "into "
+             "unknown cells";
+    }
+    return "blocked (occupancy " + std::to_string(value) + " %); a free cell is needed";
   }
 
   void reportShared(const std::string& role,
@@ -150,7 +173,7 @@ class Placement {
     const geometry_msgs::Point& there = *points[other];
     const std::string place = "its " + role + " " + toText(here);
     const std::string cell = grid_.geometry.describe(grid_.geometry.cellAt(here));
-    const std::string who = "robot '" + placed_.ids[other] + "'";
+    const std::string who = "robot " + quote(placed_.ids[other]);
     if (std::hypot(here.x - there.x, here.y - there.y) <= kSamePositionMetres) {
       report(robot, duplicate,
              place + " in cell " + cell + " is also the " + role + " of " + who +
@@ -162,47 +185,40 @@ class Placement {
     }
   }
 
-  std::vector<RobotFault> sortedFaults() {
-    std::stable_sort(
-        faults_.begin(), faults_.end(),
-        [](const IndexedFault& a, const IndexedFault& b) { return a.robot < b.robot; });
-    std::vector<RobotFault> sorted;
-    for (IndexedFault& each : faults_) sorted.push_back(std::move(each.fault));
-    return sorted;
-  }
-
   const std::vector<RobotTask>& tasks_;
   const PlanningGrid& grid_;
+  const nav_msgs::OccupancyGrid& map_;
   const PoseTransform& transform_;
   PlacedRobots placed_;
-  std::vector<IndexedFault> faults_;
+  FaultList faults_;
 };
 
 }  // namespace
 
 PlacedRobots placeRobots(const std::vector<RobotTask>& tasks, const PlanningGrid& grid,
-                         const PoseTransform& transform) {
+                         const nav_msgs::OccupancyGrid& map, const PoseTransform& transform) {
   if (tasks.empty()) {
     throw GoalError(Outcome::kNoRobots, "the goal has no robots; at least one is needed");
   }
-  return Placement(tasks, grid, transform).run();
+  return Placement(tasks, grid, map, transform).run();
 }
 
 void requireReachableGoals(const Instance& instance, const std::vector<std::string>& ids,
                            const MapGeometry& geometry, const Deadline& deadline) {
   const GridParts parts(instance.grid(), deadline);
-  std::vector<RobotFault> faults;
+  FaultList faults;
   for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {
     const Vertex start = instance.start(robot);
     const Vertex goal = instance.goal(robot);
     if (parts.partOf(start) == parts.partOf(goal)) continue;
-    faults.push_back(makeFault(
-        ids[robot], Outcome::kUnreachableGoal,
-        "robot '" + ids[robot] + "' at cell " + geometry.describe(instance.grid().cellOf(start)) +
-            " cannot reach its goal " + geometry.describe(instance.grid().cellOf(goal)) +
-            " even alone: no free way leads there"));
+    faults.add(robot, makeFault(ids[robot], Outcome::kUnreachableGoal,
+                                "robot " + quote(ids[robot]) + " at cell " +
+                                    geometry.describeWithMetres(instance.grid().cellOf(start)) +
+                                    " cannot reach its goal " +
+                                    geometry.describeWithMetres(instance.grid().cellOf(goal)) +
+                                    " even alone: no free way leads there"));
   }
-  if (!faults.empty()) throw GoalError(std::move(faults));
+  if (!faults.empty()) throw GoalError(faults);
 }
 
 }  // namespace split_mapf

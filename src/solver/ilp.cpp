@@ -11,6 +11,7 @@
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/option_values.h"
 #include "split_mapf/core/solvability.h"
+#include "split_mapf/core/wording.h"
 
 namespace split_mapf {
 namespace {
@@ -36,9 +37,8 @@ SolveResult unsolvable(const SolvabilityVerdict& verdict, const Grid& grid) {
 
 /// "12 nodes, 345 linear programs of up to 678 columns and 901 rows"
 std::string textOf(const ilp::SearchCounts& counts) {
-  return std::to_string(counts.nodes) + " nodes, " + std::to_string(counts.linear_programs) +
-         " linear programs of up to " + std::to_string(counts.columns) + " columns and " +
-         std::to_string(counts.rows) + " rows";
+  return counted(counts.nodes, "node") + ", " + counted(counts.linear_programs, "linear program") +
+         " of up to " + counted(counts.columns, "column") + " and " + counted(counts.rows, "row");
 }
 
 /// "lower bound 1740, upper bound 1742, gap 0.12 %"

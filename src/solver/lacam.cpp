@@ -86,8 +86,9 @@ void reportFailure(LacamSearch::Outcome outcome, const LacamSettings& settings,
                      " MiB; the solver option memory allows more";
   } else {
     result.termination = Termination::kUnsolvable;
-    result.message = "no plan exists: all " + std::to_string(result.high_level_nodes) +
-                     " configurations that the robots can reach were searched";
+    result.message =
+        "no plan exists: every configuration that the robots can reach was searched (" +
+        std::to_string(result.high_level_nodes) + ")";
   }
 }
 

@@ -13,6 +13,7 @@
 #include "solver/search/robot_order.h"
 #include "split_mapf/core/option_values.h"
 #include "split_mapf/core/random.h"
+#include "split_mapf/core/wording.h"
 
 namespace split_mapf {
 namespace {
@@ -68,7 +69,7 @@ bool PrioritizedRun::run() {
   const std::vector<std::uint32_t>& left_over = placement.leftOver();
   if (left_over.empty()) return true;
   if (settings_.repair) return repair(left_over, horizon);
-  failure_ = std::to_string(left_over.size()) + " robots found no path around the others";
+  failure_ = counted(left_over.size(), "robot") + " found no path around the others";
   return false;
 }
 
@@ -88,7 +89,8 @@ bool PrioritizedRun::repair(const std::vector<std::uint32_t>& left_over, std::ui
   }
   tries_ = repair.tries();
   if (!repaired) {
-    failure_ = std::to_string(repair.collidingPairs()) + " pairs of robots still collide";
+    failure_ = counted(repair.collidingPairs(), "pair of robots still collides",
+                       "pairs of robots still collide");
   }
   return repaired;
 }

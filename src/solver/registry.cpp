@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/wording.h"
 #include "split_mapf/solver/conflict_optimizer.h"
 #include "split_mapf/solver/ecbs.h"
 #include "split_mapf/solver/joint.h"
@@ -28,7 +29,7 @@ std::string join(const std::vector<std::string>& words) {
 void SolverRegistry::add(SolverInfo info) {
   const std::string name = info.name;
   if (!solvers_.emplace(name, std::move(info)).second) {
-    throw std::invalid_argument("solver '" + name + "' is registered already");
+    throw std::invalid_argument("solver " + quote(name) + " is registered already");
   }
 }
 
@@ -41,7 +42,8 @@ std::vector<std::string> SolverRegistry::names() const {
 const SolverInfo& SolverRegistry::info(const std::string& name) const {
   const auto found = solvers_.find(name);
   if (found == solvers_.end()) {
-    throw UnknownSolverError("solver '" + name + "' is unknown; available: auto, " + join(names()));
+    throw UnknownSolverError("solver " + quote(name) + " is unknown; available: auto, " +
+                             join(names()));
   }
   return found->second;
 }
@@ -56,8 +58,8 @@ std::unique_ptr<Solver> SolverRegistry::create(const std::string& name,
     if (known) continue;
     std::vector<std::string> offered;
     for (const OptionInfo& o : solver.options) offered.push_back(o.name);
-    throw OptionError("solver '" + name + "' has no option '" + option +
-                      "'; it offers: " + join(offered));
+    throw OptionError("solver " + quote(name) + " has no option " + quote(option) +
+                      "; it offers: " + join(offered));
   }
   return solver.make(options);
 }

@@ -3,6 +3,7 @@
 
 #include "split/region_repair.h"
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/wording.h"
 #include "split_mapf/split/partition.h"
 
 namespace split_mapf {
@@ -50,8 +51,7 @@ Partition partitionRectangles(const Grid& grid, std::uint32_t rows, std::uint32_
   if (rows > grid.height() || columns > grid.width()) {
     throw SplitSpecError("a space split into " + std::to_string(rows) + "x" +
                          std::to_string(columns) + " regions does not fit a grid of " +
-                         std::to_string(grid.height()) + " rows and " +
-                         std::to_string(grid.width()) + " columns");
+                         counted(grid.height(), "row") + " and " + counted(grid.width(), "column"));
   }
   Partition partition;
   partition.kind = "rectangles";

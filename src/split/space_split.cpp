@@ -7,6 +7,7 @@
 
 #include "split/space_drawer.h"
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/wording.h"
 
 namespace split_mapf {
 namespace {
@@ -26,7 +27,7 @@ Partition makePartition(const Instance& instance, const SpaceSplitOptions& optio
   if (regions > instance.graph().size()) {
     throw SplitSpecError("a space split into " + std::to_string(regions) +
                          " regions does not fit a map of " +
-                         std::to_string(instance.graph().size()) + " free cells");
+                         counted(instance.graph().size(), "free cell"));
   }
   const bool fits =
       options.rows <= instance.grid().height() && options.columns <= instance.grid().width();

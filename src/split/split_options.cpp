@@ -4,6 +4,7 @@
 
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/option_values.h"
+#include "split_mapf/core/wording.h"
 
 namespace split_mapf {
 
@@ -27,7 +28,7 @@ BufferSize readBuffer(const std::string& text) {
       return size;
     }
   }
-  throw OptionError("split option buffer=" + text +
+  throw OptionError("split option buffer=" + shown(text) +
                     ": expected WxD, e.g. 4x2, with W from 2 to 1000 cells across the border and "
                     "D from 1 to 1000 along it");
 }
@@ -98,7 +99,7 @@ SplitOptions readSplitOptions(const std::map<std::string, std::string>& values,
     }
     std::string offered;
     for (const SplitOptionInfo& o : known) offered += (offered.empty() ? "" : ", ") + o.name;
-    throw OptionError("split option '" + entry.first + "' is unknown; there are: " + offered);
+    throw OptionError("split option " + quote(entry.first) + " is unknown; there are: " + offered);
   }
   const OptionValues reader(values);
   SplitOptions options;

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/wording.h"
 
 namespace split_mapf {
 namespace {
@@ -12,7 +13,7 @@ constexpr std::uint32_t kMostPieces = 4096;
 constexpr double kRatioTolerance = 1e-6;
 
 [[noreturn]] void fail(const std::string& text, const std::string& part, const std::string& why) {
-  throw SplitSpecError("split '" + text + "': '" + part + "' " + why +
+  throw SplitSpecError("split " + quote(text) + ": " + quote(part) + " " + why +
                        "; expected none | auto | [space][time] with space = Ns | RxCs and time = "
                        "Kt | t(r1,...,rK), e.g. 4t, 2x2s, 4s8t, t(0.3,0.7)");
 }
@@ -82,6 +83,9 @@ class Parser {
     const std::string part = rest();
     if (!accept('t') || !accept('(')) fail(text_, part, "is no time part");
     do {
+      if (spec.time_ratios.size() == kMostPieces) {
+        fail(text_, part, "has more than " + std::to_string(kMostPieces) + " ratios");
+      }
       spec.time_ratios.push_back(parseRatio());
     } while (accept(','));
     if (!accept(')')) fail(text_, part, "lacks its closing bracket");

@@ -6,6 +6,7 @@
 #include "solver/available/available_solvers.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/instance.h"
+#include "split_mapf/core/wording.h"
 #include "split_mapf/io/map_file.h"
 #include "split_mapf/io/movingai.h"
 #include "split_mapf/pipeline/instance_features.h"
@@ -26,7 +27,7 @@ std::vector<std::string> wordsOf(const std::string& option, const std::string& t
   if (words.empty() || text.back() == ',') words.emplace_back();
   for (const std::string& word : words) {
     if (word.empty()) {
-      throw OptionError("option --" + option + ": an empty name in the list '" + text + "'");
+      throw OptionError("option --" + option + ": an empty name in the list " + quote(text));
     }
   }
   return words;
@@ -38,7 +39,8 @@ std::vector<std::uint32_t> countsOf(const std::string& option, const std::string
     const bool digits = word.find_first_not_of("0123456789") == std::string::npos;
     const unsigned long count = digits && word.size() < 10 ? std::stoul(word) : 0;
     if (count == 0) {
-      throw OptionError("option --" + option + ": '" + word + "' is no whole number of at least 1");
+      throw OptionError("option --" + option + ": " + quote(word) +
+                        " is no whole number of at least 1");
     }
     counts.push_back(static_cast<std::uint32_t>(count));
   }
@@ -80,9 +82,9 @@ Sweep readSweep(const CommandLine& line) {
   }
   if (sweep.maps.size() == 1) sweep.maps.resize(sweep.scenarios.size(), sweep.maps.front());
   if (sweep.maps.size() != sweep.scenarios.size()) {
-    throw OptionError(std::to_string(sweep.maps.size()) + " maps for " +
-                      std::to_string(sweep.scenarios.size()) +
-                      " scenarios: one map, or one for each scenario, is expected");
+    throw OptionError(counted(sweep.maps.size(), "map") + " for " +
+                      counted(sweep.scenarios.size(), "scenario") +
+                      ": one map, or one for each scenario, is expected");
   }
   sweep.agents = countsOf("agents", line.text("agents"));
   sweep.solvers = wordsOf("solvers", line.text("solvers", "auto"));

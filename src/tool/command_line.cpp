@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/wording.h"
 
 namespace split_mapf::tool {
 namespace {
@@ -79,7 +80,7 @@ bool CommandLine::parse(const std::vector<std::string>& arguments) {
 void CommandLine::check(const po::parsed_options& parsed) const {
   for (const po::option& option : parsed.options) {
     if (option.string_key.empty()) {
-      throw OptionError("unexpected argument '" + option.original_tokens.front() + "'" + advice());
+      throw OptionError("unexpected argument " + quote(option.original_tokens.front()) + advice());
     }
     if (contains(option.value, "")) {
       throw OptionError("option --" + option.string_key + " has an empty value" + advice());
@@ -113,8 +114,8 @@ std::uint64_t CommandLine::wholeNumber(const std::string& name, std::uint64_t fa
   stream.imbue(std::locale::classic());
   const bool digits = value.find_first_not_of("0123456789") == std::string::npos;
   if (digits && stream >> number && number >= least && number <= most) return number;
-  throw OptionError("option --" + name + ": '" + value +
-                    "' was given, a whole number of at least " + std::to_string(least) +
+  throw OptionError("option --" + name + ": " + quote(value) +
+                    " was given, a whole number of at least " + std::to_string(least) +
                     " and at most " + std::to_string(most) + " is expected");
 }
 
@@ -131,7 +132,7 @@ double CommandLine::number(const std::string& name, double fallback, double leas
   }
   std::ostringstream bound;
   bound << least;
-  throw OptionError("option --" + name + ": '" + value + "' was given, a number of at least " +
+  throw OptionError("option --" + name + ": " + quote(value) + " was given, a number of at least " +
                     bound.str() + " is expected");
 }
 

@@ -5,6 +5,7 @@
 
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/generator.h"
+#include "split_mapf/core/wording.h"
 #include "split_mapf/io/movingai.h"
 #include "tool/command_line.h"
 #include "tool/commands.h"
@@ -57,9 +58,9 @@ ExitCode runGenerate(const Call& call) {
   writeMovingAiScenario(scenario_file, std::filesystem::path(map_file).filename().string(),
                         *problem.grid, {problem.starts, problem.goals});
   std::cout << toString(options.kind) << " map of " << options.width << "x" << options.height
-            << " cells, " << problem.grid->size() << " of them free, " << options.robots
-            << " robots, seed " << options.seed << ": " << map_file << ", " << scenario_file
-            << "\n";
+            << " cells, " << problem.grid->size() << " of them free, "
+            << counted(options.robots, "robot") << ", seed " << options.seed << ": " << map_file
+            << ", " << scenario_file << "\n";
   return ExitCode::kOk;
 }
 

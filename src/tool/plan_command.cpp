@@ -9,6 +9,7 @@
 #include "solver/available/available_solvers.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/instance.h"
+#include "split_mapf/core/wording.h"
 #include "split_mapf/io/map_file.h"
 #include "split_mapf/io/movingai.h"
 #include "split_mapf/io/plan_json.h"
@@ -34,8 +35,8 @@ std::unique_ptr<Executor> startExecutor(std::uint32_t threads) {
   try {
     return std::make_unique<Executor>(threads);
   } catch (const std::system_error& e) {
-    throw InputError("option --threads: " + std::to_string(threads) +
-                     " threads cannot be started: " + e.what());
+    throw InputError("option --threads: " + counted(threads, "thread") +
+                     " cannot be started: " + e.what());
   }
 }
 

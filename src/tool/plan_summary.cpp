@@ -5,6 +5,8 @@
 #include <sstream>
 #include <string>
 
+#include "split_mapf/core/wording.h"
+
 namespace split_mapf::tool {
 namespace {
 
@@ -29,8 +31,7 @@ void printLine(std::ostream& out, const std::string& name, const std::string& va
 }  // namespace
 
 void printSummary(std::ostream& out, const PlanReport& report) {
-  const std::string robots =
-      std::to_string(report.robots) + (report.robots == 1 ? " robot" : " robots");
+  const std::string robots = counted(report.robots, "robot");
   printLine(
       out, "status",
       toString(report.termination) + ", " + robots + (report.optimal ? ", proved optimal" : ""));

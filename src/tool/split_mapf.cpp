@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/wording.h"
 #include "tool/commands.h"
 
 namespace split_mapf::tool {
@@ -46,7 +47,7 @@ ExitCode run(const std::vector<std::string>& arguments, Deadline::Clock::time_po
   if (arguments.empty()) refuse("no command was given");
   const std::string& name = arguments.front();
   if (name == "--help" || name == "--version") {
-    if (arguments.size() > 1) throw OptionError("unexpected argument '" + arguments[1] + "'");
+    if (arguments.size() > 1) throw OptionError("unexpected argument " + quote(arguments[1]));
     if (name == "--help") {
       printHelp();
     } else {
@@ -58,7 +59,7 @@ ExitCode run(const std::vector<std::string>& arguments, Deadline::Clock::time_po
     if (command.name != name) continue;
     return command.run({{arguments.begin() + 1, arguments.end()}, begin_of_call});
   }
-  refuse("command '" + name + "' is unknown");
+  refuse("command " + quote(name) + " is unknown");
 }
 
 /// The one place where exceptions end.

@@ -72,7 +72,7 @@ TEST_F(ValidateTest, FindsAMissingPath) {
   const auto found = after([](Cells& p) { p.pop_back(); });
   ASSERT_EQ(found.size(), 1U) << listOf(found);
   EXPECT_EQ(found[0].kind, ViolationKind::kRobotCount);
-  EXPECT_TRUE(mentions(found[0], "1 paths") && mentions(found[0], "2 robots"));
+  EXPECT_TRUE(mentions(found[0], "1 path,") && mentions(found[0], "2 robots"));
 }
 
 TEST_F(ValidateTest, FindsASurplusPathAndWhatItRunsInto) {

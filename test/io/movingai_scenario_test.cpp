@@ -203,7 +203,7 @@ TEST_F(ScenarioTest, RefusesToWriteWhatCannotBeRead) {
             "robot 0: start (2,0) is blocked, expected a free cell of the 3x2 grid");
   EXPECT_EQ(write({{{0, 0}}, {{0, 2}}}),
             "robot 0: goal (0,2) is outside the map, expected a free cell of the 3x2 grid");
-  EXPECT_EQ(write({{{0, 0}}, {}}), "a scenario of 1 starts has 0 goals, expected as many");
+  EXPECT_EQ(write({{{0, 0}}, {}}), "a scenario of 1 start has 0 goals, expected as many");
 }
 
 TEST_F(ScenarioTest, ReadsBenchmarks) {

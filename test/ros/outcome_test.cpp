@@ -55,12 +55,27 @@ TEST(Outcome, FollowsFromEveryTermination) {
 }
 
 TEST(GoalError, TakesItsOutcomeFromTheFirstFault) {
-  const GoalError error({makeFault("a", Outcome::kBlockedCell, "first"),
-                         makeFault("b", Outcome::kOutsideMap, "second")});
+  FaultList faults;
+  faults.add(1, makeFault("b", Outcome::kOutsideMap, "second"));
+  faults.add(0, makeFault("a", Outcome::kBlockedCell, "first"));
+  const GoalError error(faults);
   EXPECT_EQ(error.outcome(), Outcome::kBlockedCell);
-  EXPECT_STREQ(error.what(), "first (and 1 more faults)");
+  EXPECT_STREQ(error.what(), "first (and 1 more fault)");
   ASSERT_EQ(error.faults().size(), 2U);
   EXPECT_EQ(error.faults()[1].code, codeOf(Outcome::kOutsideMap));
+}
+
+TEST(GoalError, ListsAThousandFaultsAndSaysHowManyThereAre) {
+  FaultList faults;
+  constexpr std::size_t kRobots = 20000;
+  for (std::size_t i = kRobots; i-- > 0;) {
+    faults.add(i,
+               makeFault(std::to_string(i), Outcome::kBlockedCell, "fault " + std::to_string(i)));
+  }
+  const GoalError error(faults);
+  ASSERT_EQ(error.faults().size(), 1000U);
+  for (std::size_t i = 0; i < 1000; ++i) EXPECT_EQ(error.faults()[i].robot_id, std::to_string(i));
+  EXPECT_STREQ(error.what(), "fault 0 (and 19999 more faults; the first 1000 are listed)");
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ TEST(PlanCheck, ComparesClaimsWithThePaths) {
 TEST(PlanCheck, ComparesTheGridWithTheMap) {
   MultiRobotPlan plan = planOf({{0, 1}}, 1, 1);
   plan.grid.resolution = 2;
-  expectOne(plan, {"4x2", "2.000000 m"});
+  expectOne(plan, {"4x2", "cells of 2 m"});
   plan.grid = small_map.info;
   plan.grid.origin.position.x = 1;
   expectOne(plan, {"origin"});

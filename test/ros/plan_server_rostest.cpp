@@ -7,6 +7,7 @@
 #include <split_mapf/PlanOutcome.h>
 #include <split_mapf/ValidatePlan.h>
 #include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_broadcaster.h>
 
 #include <algorithm>
 #include <functional>
@@ -119,6 +120,10 @@ TEST_F(PlannerNode, UsesTheTopicsMapWhenAGoalHasNone) {
   EXPECT_NE(early.message.find("/map"), std::string::npos) << early.message;
 
   ros::Publisher publisher = node_.advertise<nav_msgs::OccupancyGrid>("map", 1, true);
+  // An empty map is none.
+  publisher.publish(nav_msgs::OccupancyGrid());
+  ros::WallDuration(0.5).sleep();
+  EXPECT_EQ(runGoal(client_, message).result().outcome, PlanOutcome::INVALID_MAP);
   publisher.publish(map);
   PlanPathsResult result;
   for (int i = 0; i < 50 && result.plan.paths.empty(); ++i) {
@@ -174,6 +179,12 @@ INSTANTIATE_TEST_SUITE_P(
                               [](auto& g) { g.map.data.pop_back(); }, nobody, "35 cells"},
                       BadGoal{"NoRows", PlanOutcome::INVALID_MAP,
                               [](auto& g) { g.map.info.height = 0; }, nobody, "6x0"},
+                      BadGoal{"FrameOfAMegabyte", PlanOutcome::INVALID_MAP,
+                              [](auto& g) { g.map.header.frame_id.assign(1000000, 'x'); }, nobody,
+                              "has 1000000 bytes; at most 256 are possible"},
+                      BadGoal{"FarOrigin", PlanOutcome::INVALID_MAP,
+                              [](auto& g) { g.map.info.origin.position.x = 1e300; }, nobody,
+                              "1e+300"},
                       BadGoal{"Resolution", PlanOutcome::INVALID_MAP,
                               [](auto& g) { g.map.info.resolution = -0.1F; }, nobody, "resolution"},
                       BadGoal{"NoFreeCell",
@@ -217,85 +228,133 @@ INSTANTIATE_TEST_SUITE_P(
                 [](auto& g) { g.options.unknown_space = 9; }, nobody, "unknown_space 9"},
         BadGoal{"Threshold", PlanOutcome::INVALID_OPTION,
                 [](auto& g) { g.options.occupied_threshold = 120; }, nobody, "120"},
+        BadGoal{"AMillionSolverOptions", PlanOutcome::INVALID_OPTION,
+                [](auto& g) {
+                  g.options.solver = "ecbs";
+                  g.options.solver_options.assign(1000000, "a=b");
+                },
+                nobody, "there are 1000000"},
+        BadGoal{"SolverOfAMegabyte", PlanOutcome::UNKNOWN_SOLVER,
+                [](auto& g) { g.options.solver.assign(1000000, 'x'); }, nobody,
+                "xxx...' is unknown"},
+        BadGoal{"SplitOfAMegabyte", PlanOutcome::INVALID_SPLIT,
+                [](auto& g) { g.options.split.assign(1000000, '4'); }, nobody, "1000000 bytes"},
+        BadGoal{"ObjectiveOfAMegabyte", PlanOutcome::INVALID_OPTION,
+                [](auto& g) { g.options.objective.assign(1000000, 'x'); }, nobody, "xxx..."},
+        BadGoal{"HugeSuboptimality", PlanOutcome::INVALID_OPTION,
+                [](auto& g) { g.options.suboptimality = 1e300; }, nobody, "1e+300"},
+        BadGoal{"HugeTimeLimit", PlanOutcome::INVALID_OPTION,
+                [](auto& g) { g.options.time_limit = 1e300; }, nobody, "time_limit 1e+300"},
+        BadGoal{"HugeThreads", PlanOutcome::INVALID_OPTION,
+                [](auto& g) { g.options.threads = 4000000000U; }, nobody, "threads 4000000000"},
+        BadGoal{"StepDurationBeyondRosTime", PlanOutcome::INVALID_OPTION,
+                [](auto& g) { g.options.fill_poses = true, g.options.step_duration = 1e9; }, nobody,
+                "step_duration 1e+09"},
         BadGoal{"StepDuration", PlanOutcome::INVALID_OPTION,
                 [](auto& g) { g.options.step_duration = -1; }, nobody, "step_duration"}),
     [](const auto& info) { return info.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
     Robots, BadGoalTest,
-    ::testing::Values(BadGoal{"None", PlanOutcome::NO_ROBOTS, [](auto& g) { g.robots.clear(); },
-                              nobody, "no robots"},
-                      BadGoal{"SameId",
-                              PlanOutcome::DUPLICATE_ROBOT_ID,
-                              [](auto& g) { g.robots[1].robot_id = "left"; },
-                              {"left", "left"},
-                              "'left'"},
-                      BadGoal{
-                          "IdOfAnIndex",
-                          PlanOutcome::DUPLICATE_ROBOT_ID,
-                          [](auto& g) { g.robots[0].robot_id = "", g.robots[1].robot_id = "0"; },
-                          {"0", "0"},
-                          "'0'"},
-                      BadGoal{"Outside",
-                              PlanOutcome::OUTSIDE_MAP,
-                              [](auto& g) { g.robots[1].goal = poseAt(6.5, 0.5); },
-                              {"right"},
-                              "'right'"},
-                      BadGoal{"Blocked",
-                              PlanOutcome::BLOCKED_CELL,
-                              [](auto& g) { g.map.data[12] = 100; },
-                              {"left"},
-                              "(0,2)"},
-                      BadGoal{"Unknown",
-                              PlanOutcome::BLOCKED_CELL,
-                              [](auto& g) { g.map.data[12] = -1; },
-                              {"left"},
-                              "(0,2)"},
-                      BadGoal{"SameStart",
-                              PlanOutcome::DUPLICATE_START,
-                              [](auto& g) { g.robots[1].start = g.robots[0].start; },
-                              {"left", "right"},
-                              "start"},
-                      BadGoal{"SameGoal",
-                              PlanOutcome::DUPLICATE_GOAL,
-                              [](auto& g) { g.robots[1].goal = g.robots[0].goal; },
-                              {"left", "right"},
-                              "goal"},
-                      BadGoal{"OneCell",
-                              PlanOutcome::UNPLACEABLE,
-                              [](auto& g) { g.robots[1].start = poseAt(0.9, 2.1); },
-                              {"left", "right"},
-                              "planning cell (0,2)"},
-                      BadGoal{"CutOff",
-                              PlanOutcome::UNREACHABLE_GOAL,
-                              [](auto& g) {
-                                for (int row = 0; row < 6; ++row) g.map.data[row * 6U + 3] = 100;
-                              },
-                              {"left", "right"},
-                              "no free way"},
-                      BadGoal{"NanPose",
-                              PlanOutcome::INVALID_POSE,
-                              [](auto& g) { g.robots[0].start.pose.position.x = kNan; },
-                              {"left"},
-                              "finite"},
-                      BadGoal{"NoQuaternion",
-                              PlanOutcome::INVALID_POSE,
-                              [](auto& g) { g.robots[1].goal.pose.orientation.w = 0; },
-                              {"right"},
-                              "quaternion"},
-                      BadGoal{"NoFrame",
-                              PlanOutcome::TRANSFORM_FAILED,
-                              [](auto& g) { g.robots[1].start.header.frame_id = "moon"; },
-                              {"right"},
-                              "'moon'"},
-                      BadGoal{"Several",
-                              PlanOutcome::OUTSIDE_MAP,
-                              [](auto& g) {
-                                g.robots[0].start = poseAt(-1, 0);
-                                g.robots[1].goal = poseAt(kNan, 0);
-                              },
-                              {"left", "right"},
-                              "1 more"}),
+    ::testing::Values(
+        BadGoal{"None", PlanOutcome::NO_ROBOTS, [](auto& g) { g.robots.clear(); }, nobody,
+                "no robots"},
+        BadGoal{"SameId",
+                PlanOutcome::DUPLICATE_ROBOT_ID,
+                [](auto& g) { g.robots[1].robot_id = "left"; },
+                {"left", "left"},
+                "'left'"},
+        BadGoal{"IdOfAnIndex",
+                PlanOutcome::DUPLICATE_ROBOT_ID,
+                [](auto& g) { g.robots[0].robot_id = "", g.robots[1].robot_id = "0"; },
+                {"0", "0"},
+                "'0'"},
+        BadGoal{"Outside",
+                PlanOutcome::OUTSIDE_MAP,
+                [](auto& g) { g.robots[1].goal = poseAt(6.5, 0.5); },
+                {"right"},
+                "'right'"},
+        BadGoal{"Blocked",
+                PlanOutcome::BLOCKED_CELL,
+                [](auto& g) { g.map.data[12] = 100; },
+                {"left"},
+                "(0,2)"},
+        BadGoal{"Unknown",
+                PlanOutcome::BLOCKED_CELL,
+                [](auto& g) { g.map.data[12] = -1; },
+                {"left"},
+                "(0,2)"},
+        BadGoal{"SameStart",
+                PlanOutcome::DUPLICATE_START,
+                [](auto& g) { g.robots[1].start = g.robots[0].start; },
+                {"left", "right"},
+                "start"},
+        BadGoal{"SameGoal",
+                PlanOutcome::DUPLICATE_GOAL,
+                [](auto& g) { g.robots[1].goal = g.robots[0].goal; },
+                {"left", "right"},
+                "goal"},
+        BadGoal{"OneCell",
+                PlanOutcome::UNPLACEABLE,
+                [](auto& g) { g.robots[1].start = poseAt(0.9, 2.1); },
+                {"left", "right"},
+                "planning cell (0,2)"},
+        BadGoal{"CutOff",
+                PlanOutcome::UNREACHABLE_GOAL,
+                [](auto& g) {
+                  for (int row = 0; row < 6; ++row) g.map.data[row * 6U + 3] = 100;
+                },
+                {"left", "right"},
+                "no free way"},
+        BadGoal{"NanPose",
+                PlanOutcome::INVALID_POSE,
+                [](auto& g) { g.robots[0].start.pose.position.x = kNan; },
+                {"left"},
+                "finite"},
+        BadGoal{"NoQuaternion",
+                PlanOutcome::INVALID_POSE,
+                [](auto& g) { g.robots[1].goal.pose.orientation.w = 0.5; },
+                {"right"},
+                "quaternion"},
+        BadGoal{"NoFrame",
+                PlanOutcome::TRANSFORM_FAILED,
+                [](auto& g) { g.robots[1].start.header.frame_id = "moon"; },
+                {"right"},
+                "'moon'"},
+        BadGoal{"IdOfAMegabyte",
+                PlanOutcome::INVALID_OPTION,
+                [](auto& g) { g.robots[1].robot_id.assign(1000000, 'x'); },
+                {std::string(77, 'x') + "..."},
+                "its robot_id has 1000000 bytes; at most 256 are possible"},
+        BadGoal{"PoseFrameOfAMegabyte",
+                PlanOutcome::INVALID_POSE,
+                [](auto& g) { g.robots[1].goal.header.frame_id.assign(1000000, 'x'); },
+                {"right"},
+                "its goal has a frame_id that has 1000000 bytes"},
+        BadGoal{"FrameOfTwoSlashes",
+                PlanOutcome::TRANSFORM_FAILED,
+                [](auto& g) { g.robots[1].start.header.frame_id = "//moon"; },
+                {"right"},
+                "slash"},
+        BadGoal{"NobodyPublishesTheFrame",
+                PlanOutcome::TRANSFORM_FAILED,
+                [](auto& g) { g.robots[1].start.header.frame_id = "moon"; },
+                {"right"},
+                "nobody publishes frame 'moon', waited up to 1 s (tf2 says: "},
+        BadGoal{"UnknownCell",
+                PlanOutcome::BLOCKED_CELL,
+                [](auto& g) { g.map.data[12] = -1; },
+                {"left"},
+                "(0,2), which is unknown; a free cell is needed, or the option "
+                "unknown_space 2"},
+        BadGoal{"Several",
+                PlanOutcome::OUTSIDE_MAP,
+                [](auto& g) {
+                  g.robots[0].start = poseAt(-1, 0);
+                  g.robots[1].goal = poseAt(kNan, 0);
+                },
+                {"left", "right"},
+                "1 more"}),
     [](const auto& info) { return info.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
@@ -306,6 +365,123 @@ INSTANTIATE_TEST_SUITE_P(
                       BadGoal{"NoTime", PlanOutcome::TIMEOUT,
                               [](auto& g) { g.options.time_limit = -1; }, nobody, "time"}),
     [](const auto& info) { return info.param.name; });
+
+TEST_F(PlannerNode, TwentyThousandRobotsAndAFrameOfAMegabyteHadNoAnswer) {
+  PlanPathsGoal message = smallGoal();
+  message.map.header.frame_id.assign(1000000, 'x');
+  const RobotTask robot = message.robots.front();
+  message.robots.assign(20000, robot);
+  for (std::size_t i = 0; i < message.robots.size(); ++i) {
+    message.robots[i].robot_id = std::to_string(i);
+  }
+  const double sent_at = TrackedGoal::now();
+  const TrackedGoal goal = runGoal(client_, message);
+  EXPECT_EQ(goal.result().outcome, PlanOutcome::INVALID_MAP);
+  EXPECT_LT(goal.doneAt() - sent_at, 5);
+
+  // All in one place: as many faults, of which a thousand are told.
+  message.map.header.frame_id = "map";
+  const PlanPathsResult crowded = runGoal(client_, message).result();
+  EXPECT_EQ(crowded.outcome, PlanOutcome::DUPLICATE_START);
+  EXPECT_EQ(crowded.faults.size(), 1000U);
+  EXPECT_NE(crowded.message.find("39999 more faults; the first 1000 are listed"), std::string::npos)
+      << crowded.message;
+}
+
+TEST_F(PlannerNode, PosesTooLargeToArriveWereSilence) {
+  // 2000 robots that cross 2000 cells each: 16 MB as cells, 316 MB as poses.
+  PlanPathsGoal message;
+  constexpr std::uint32_t kSide = 2000;
+  message.map.header.frame_id = "map";
+  message.map.info.resolution = 1;
+  message.map.info.width = message.map.info.height = kSide;
+  message.map.info.origin.orientation.w = 1;
+  message.map.data.assign(std::size_t{kSide} * kSide, 0);
+  for (std::uint32_t y = 0; y < kSide; ++y) {
+    message.robots.push_back(taskBetween("", poseAt(0.5, y + 0.5), poseAt(kSide - 0.5, y + 0.5)));
+  }
+  message.options.fill_poses = true;
+  const TrackedGoal goal = runGoal(client_, message);
+  EXPECT_EQ(goal.state(), "ABORTED");
+  EXPECT_EQ(goal.result().outcome, PlanOutcome::INVALID_OPTION);
+  EXPECT_EQ(goal.result().message.rfind("fill_poses: the result would have at least ", 0), 0U)
+      << goal.result().message;
+  expectServing();
+}
+
+TEST_F(PlannerNode, AStampAtTheEndOfTimeWasAnInternalError) {
+  tf2_ros::TransformBroadcaster broadcaster;
+  geometry_msgs::TransformStamped cart;
+  cart.header.frame_id = "map";
+  cart.header.stamp = ros::Time::now();
+  cart.child_frame_id = "cart";
+  cart.transform.rotation.w = 1;
+  PlanPathsGoal message = smallGoal();
+  message.robots[0].start.header.frame_id = "cart";
+  std::int32_t outcome = PlanOutcome::TRANSFORM_FAILED;
+  for (int i = 0; i < 50 && outcome != PlanOutcome::SUCCEEDED; ++i) {
+    broadcaster.sendTransform(cart);  // until the node has heard of it
+    outcome = runGoal(client_, message).result().outcome;
+  }
+  ASSERT_EQ(outcome, PlanOutcome::SUCCEEDED);
+  for (const std::uint32_t sec : {1U, 4294967295U}) {
+    message.robots[0].start.header.stamp = ros::Time(sec, 999999999);
+    const PlanPathsResult result = runGoal(client_, message).result();
+    EXPECT_EQ(result.outcome, PlanOutcome::TRANSFORM_FAILED) << result.message;
+    EXPECT_NE(result.message.find("time stamp of " + std::to_string(sec) + " s"), std::string::npos)
+        << result.message;
+  }
+}
+
+TEST_F(PlannerNode, AcceptsPosesWithoutHeading) {
+  PlanPathsGoal message = smallGoal();
+  for (RobotTask& robot : message.robots) {
+    robot.start.pose.orientation = robot.goal.pose.orientation = geometry_msgs::Quaternion();
+  }
+  EXPECT_EQ(runGoal(client_, message).result().outcome, PlanOutcome::SUCCEEDED);
+}
+
+TEST_F(PlannerNode, UnsolvableNamedRobotsByIndexAndCellsFromTheTop) {
+  PlanPathsGoal message;
+  message.map = mapFromAscii({"....", "####", "...."});
+  message.map.info.resolution = 0.5;
+  message.robots = {taskBetween("one", poseAt(0.25, 1.25), poseAt(1.75, 1.25)),
+                    taskBetween("two", poseAt(1.75, 1.25), poseAt(0.25, 1.25)),
+                    taskBetween("three", poseAt(0.25, 0.25), poseAt(1.75, 0.25)),
+                    taskBetween("four", poseAt(1.75, 0.25), poseAt(0.25, 0.25))};
+  const PlanPathsResult result = runGoal(client_, message).result();
+  EXPECT_EQ(result.outcome, PlanOutcome::UNSOLVABLE);
+  for (const char* part : {"'one'", "'two'", "(0,2) at (0.250, 1.250) m", "1 more obstacle"}) {
+    EXPECT_NE(result.message.find(part), std::string::npos) << part << ": " << result.message;
+  }
+  std::vector<std::string> faulty;
+  for (const RobotFault& fault : result.faults) {
+    faulty.push_back(fault.robot_id);
+    EXPECT_EQ(fault.code, PlanOutcome::UNSOLVABLE);
+  }
+  const std::vector<std::string> everybody = {"one", "two", "three", "four"};
+  EXPECT_EQ(faulty, everybody);
+
+  ros::ServiceClient service = node_.serviceClient<CheckSolvable>("split_mapf/check_solvable");
+  CheckSolvable call;
+  call.request.map = message.map;
+  call.request.robots = message.robots;
+  ASSERT_TRUE(service.call(call));
+  EXPECT_EQ(call.response.outcome, PlanOutcome::UNSOLVABLE);
+  EXPECT_EQ(call.response.reason, result.message);
+  EXPECT_EQ(call.response.faults.size(), 4U);
+}
+
+TEST_F(PlannerNode, ATimeoutSaysWhatIsKnown) {
+  PlanPathsGoal message = hardGoal();
+  message.options.time_limit = 0.5;
+  const PlanPathsResult result = runGoal(client_, message).result();
+  EXPECT_EQ(result.outcome, PlanOutcome::TIMEOUT);
+  for (const char* part : {"0.5 s", "a plan exists: that is proved", "solver ecbs, split none",
+                           "try a longer time limit"}) {
+    EXPECT_NE(result.message.find(part), std::string::npos) << part << ": " << result.message;
+  }
+}
 
 TEST_F(PlannerNode, StopsACancelledSearchAtOnce) {
   TrackedGoal goal(client_, hardGoal());
@@ -418,6 +594,7 @@ TEST_F(PlannerNode, ListsItsSolvers) {
   ListSolvers call;
   ASSERT_TRUE(service.call(call));
   const std::vector<std::string>& names = call.response.names;
+  EXPECT_EQ(std::count(names.begin(), names.end(), "auto"), 1);
   EXPECT_EQ(std::count(names.begin(), names.end(), "ecbs"), 1);
   EXPECT_EQ(std::count(names.begin(), names.end(), "prioritized"), 1);
   ASSERT_EQ(call.response.descriptions.size(), names.size());

@@ -1,7 +1,6 @@
 #include "split_mapf/ros/robot_tasks.h"
 
 #include <gtest/gtest.h>
-#include <tf2/exceptions.h>
 
 #include <limits>
 
@@ -20,7 +19,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 /// Knows the frame `shifted`, whose origin lies at (1, 0) of the map.
 geometry_msgs::Point transformShifted(const geometry_msgs::PoseStamped& pose,
                                       const std::string& /*frame*/) {
-  if (pose.header.frame_id != "shifted") throw tf2::LookupException("no such frame");
+  if (pose.header.frame_id != "shifted") throw TransformFailure("no such frame");
   geometry_msgs::Point point = pose.pose.position;
   point.x += 1;
   return point;
@@ -29,7 +28,7 @@ geometry_msgs::Point transformShifted(const geometry_msgs::PoseStamped& pose,
 class PlaceRobots : public ::testing::Test {
  protected:
   PlacedRobots place(const std::vector<RobotTask>& tasks) const {
-    return placeRobots(tasks, grid_, transformShifted);
+    return placeRobots(tasks, grid_, map_, transformShifted);
   }
   /// "id:CODE" of every fault, in order.
   std::vector<std::string> faultsOf(const std::vector<RobotTask>& tasks) const {
@@ -48,7 +47,8 @@ class PlaceRobots : public ::testing::Test {
   }
   using Faults = std::vector<std::string>;
 
-  const PlanningGrid grid_ = makePlanningGrid(mapFromAscii({"....", ".#..", "...."}), {});
+  const nav_msgs::OccupancyGrid map_ = mapFromAscii({"....", ".#?.", "...."});
+  const PlanningGrid grid_ = makePlanningGrid(map_, {});
 };
 
 TEST_F(PlaceRobots, FindsTheCellsOfPoses) {
@@ -100,9 +100,78 @@ TEST_F(PlaceRobots, RefusesPosesThatAreNone) {
               Faults{"a:INVALID_POSE"});
   }
   RobotTask task = taskBetween("a", poseAt(0.5, 0.5), poseAt(0.5, 2.5));
-  for (const double w : {0.0, kNan, 0.5, 3.0}) {
+  for (const double w : {kNan, 0.5, 3.0, 1e-9}) {
     task.goal.pose.orientation.w = w;
     EXPECT_EQ(faultsOf({task}), Faults{"a:INVALID_POSE"}) << w;
+  }
+}
+
+TEST_F(PlaceRobots, AnAllZeroQuaternionWasRefusedThoughItMeansNoHeading) {
+  RobotTask task = taskBetween("a", poseAt(0.5, 0.5), poseAt(0.5, 2.5));
+  task.start.pose.orientation = task.goal.pose.orientation = geometry_msgs::Quaternion();
+  EXPECT_EQ(place({task}).goals.front(), (Cell{0, 0}));
+}
+
+TEST_F(PlaceRobots, AnUnknownCellWasCalledBlocked) {
+  try {
+    place({taskBetween("a", poseAt(2.5, 1.5), poseAt(1.5, 1.5))});
+    FAIL() << "accepted";
+  } catch (const GoalError& error) {
+    ASSERT_EQ(error.faults().size(), 2U);
+    const std::string& unknown = error.faults()[0].message;
+    EXPECT_NE(unknown.find("(2,1), which is unknown"), std::string::npos) << unknown;
+    EXPECT_NE(unknown.find("unknown_space 2"), std::string::npos) << unknown;
+    const std::string& blocked = error.faults()[1].message;
+    EXPECT_NE(blocked.find("(1,1), which is blocked (occupancy 100 %)"), std::string::npos)
+        << blocked;
+  }
+}
+
+TEST_F(PlaceRobots, AMegabyteAsIdOrFrameWasRepeatedInEveryFault) {
+  const std::string huge(1000000, 'x');
+  std::vector<RobotTask> tasks = {taskBetween(huge, poseAt(0.5, 0.5), poseAt(0.5, 2.5)),
+                                  taskBetween(huge, poseAt(2.5, 0.5), poseAt(2.5, 2.5)),
+                                  taskBetween("c", poseAt(3.5, 0.5), poseAt(3.5, 2.5))};
+  tasks[2].start.header.frame_id = tasks[2].goal.header.frame_id = huge;
+  try {
+    place(tasks);
+    FAIL() << "accepted";
+  } catch (const GoalError& error) {
+    EXPECT_LT(std::string(error.what()).size(), 400U);
+    ASSERT_EQ(error.faults().size(), 4U);
+    const std::vector<Outcome> codes = {Outcome::kInvalidOption, Outcome::kInvalidOption,
+                                        Outcome::kInvalidPose, Outcome::kInvalidPose};
+    for (std::size_t i = 0; i < 4; ++i) {
+      const RobotFault& fault = error.faults()[i];
+      EXPECT_EQ(fault.code, codeOf(codes[i]));
+      EXPECT_LE(fault.robot_id.size(), 80U);
+      EXPECT_LT(fault.message.size(), 400U);
+      EXPECT_NE(fault.message.find("has 1000000 bytes; at most 256 are possible"),
+                std::string::npos)
+          << fault.message;
+    }
+    EXPECT_NE(error.faults()[1].message.find("robot 1 of the goal"), std::string::npos);
+  }
+  EXPECT_EQ(place({taskBetween(std::string(256, 'x'), poseAt(0.5, 0.5), poseAt(0.5, 2.5))})
+                .ids.front()
+                .size(),
+            256U);
+}
+
+TEST_F(PlaceRobots, TwentyThousandFaultsBecomeAThousandAndTheirNumber) {
+  std::vector<RobotTask> tasks;
+  for (int i = 0; i < 20000; ++i) {
+    tasks.push_back(taskBetween(std::to_string(i), poseAt(1.5, 1.5), poseAt(-1, 0.5)));
+  }
+  try {
+    place(tasks);
+    FAIL() << "accepted";
+  } catch (const GoalError& error) {
+    ASSERT_EQ(error.faults().size(), 1000U);
+    EXPECT_EQ(error.faults()[999].robot_id, "499");
+    EXPECT_NE(std::string(error.what()).find("39999 more faults; the first 1000 are listed"),
+              std::string::npos)
+        << error.what();
   }
 }
 

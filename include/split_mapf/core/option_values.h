@@ -15,6 +15,8 @@ class OptionValues {
 
   std::string choice(const std::string& name, const std::string& fallback,
                      const std::vector<std::string>& choices) const;
+  /// A whole number up to kMostCount, so that sums and products of a few do not overflow.
+  static constexpr std::uint64_t kMostCount = 1000000000;
   std::uint64_t count(const std::string& name, std::uint64_t fallback) const;
   /// A finite number from `least` to `most`.
   double number(const std::string& name, double fallback, double least, double most) const;

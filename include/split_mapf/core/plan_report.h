@@ -9,6 +9,7 @@
 #include "split_mapf/core/layout.h"
 #include "split_mapf/core/objective.h"
 #include "split_mapf/core/plan.h"
+#include "split_mapf/core/solvability.h"
 #include "split_mapf/core/termination.h"
 
 namespace split_mapf {
@@ -44,6 +45,8 @@ struct PlanReport {
 
   Termination termination = Termination::kNoPlanFound;
   std::string message;
+  bool solvable = false;                      ///< proved: a plan exists
+  std::optional<SolvabilityVerdict> refusal;  ///< why none exists, where the rules of exchange tell
   std::optional<std::uint32_t> cut_off_robot;  ///< set when a robot cannot reach its goal at all
   std::optional<Plan> plan;
   std::uint32_t makespan = 0;

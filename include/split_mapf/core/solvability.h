@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -117,5 +118,13 @@ SolvabilityVerdict checkSolvable(const Instance& instance, const Deadline& deadl
 std::string explain(const SolvabilityVerdict& verdict, const Grid& grid);
 /// The same for a graph without coordinates, whose vertices go by number.
 std::string explain(const SolvabilityVerdict& verdict);
+
+/// How a verdict's robots and vertices are called.
+struct VerdictNames {
+  std::function<std::string(std::uint32_t)> robot;
+  std::function<std::string(Vertex)> cell;
+};
+/// The same with these names.
+std::string explain(const SolvabilityVerdict& verdict, const VerdictNames& names);
 
 }  // namespace split_mapf

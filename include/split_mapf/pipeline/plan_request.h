@@ -10,6 +10,14 @@ namespace split_mapf {
 
 /// What a user asks of the planner. The one place where these defaults live.
 struct PlanRequest {
+  // More than these can only be a mistake, and is refused before anything is made of it.
+  static constexpr std::size_t kMostOptions = 100;       ///< entries of one list of options
+  static constexpr std::size_t kMostOptionBytes = 256;   ///< of an entry
+  static constexpr std::size_t kMostSplitBytes = 65536;  ///< room for 4096 ratios
+  static constexpr double kMostSuboptimality = 1e6;
+  static constexpr double kMostSeconds = 1e9;  ///< of refinement
+  static constexpr std::uint32_t kMostThreads = 1024;
+
   std::string solver = "auto";
   std::vector<std::string> solver_options;  ///< NAME=VALUE
   std::string split = "auto";

@@ -9,16 +9,14 @@
 #include <string>
 #include <thread>
 
-#include <actionlib/server/action_server.h>
 #include <split_mapf/PlanPathsAction.h>
 
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/pipeline/planner.h"
 #include "split_mapf/ros/goal_planner.h"
+#include "split_mapf/ros/plan_action_server.h"
 
 namespace split_mapf {
-
-using PlanActionServer = actionlib::ActionServer<PlanPathsAction>;
 
 /// One admitted goal: its thread, its stop flag, its feedback, and its one way to a terminal state.
 class ActiveGoal {

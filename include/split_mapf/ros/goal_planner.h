@@ -1,13 +1,16 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
+#include <vector>
 
 #include <split_mapf/PlanLayout.h>
 #include <split_mapf/PlanPathsAction.h>
 
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
+#include "split_mapf/core/solvability.h"
 #include "split_mapf/pipeline/planner.h"
 #include "split_mapf/ros/map_source.h"
 #include "split_mapf/ros/options_loader.h"
@@ -56,7 +59,8 @@ class GoalPlanner {
   PreparedGoal prepare(const boost::shared_ptr<const PlanPathsGoal>& goal,
                        const GoalOptions& options, const Deadline& deadline) const;
   /// Plans. A cancelled goal that has a plan carries it, with outcome CANCELLED.
-  /// @throws GoalError INVALID_SPLIT for a space split that does not fit the map.
+  /// @throws GoalError: INVALID_SPLIT for a space split that does not fit the map, INVALID_OPTION
+  /// for a plan with more bytes or steps than can be sent.
   GoalAnswer plan(const PreparedGoal& goal, const Deadline& deadline,
                   const ProgressCallback& progress) const;
 
@@ -65,12 +69,21 @@ class GoalPlanner {
   PreparedGoal prepareUntil(const boost::shared_ptr<const PlanPathsGoal>& goal,
                             const GoalOptions& options, const Deadline& deadline,
                             const char*& doing) const;
+  /// @param points  of the robots' paths. @param least  whether these are lower bounds.
+  /// @throws OptionError for a plan that could not be sent, or would outlast ROS time.
+  void requireFits(const PreparedGoal& goal, const std::vector<std::uint32_t>& points,
+                   bool least) const;
 
   const Planner& planner_;
   const ServerOptions& options_;
   const MapSource& maps_;
   const PoseTransformer& transformer_;
 };
+
+/// Every obstacle to a plan, `first` among them. @pre `first` refuses the goal's instance.
+std::vector<SolvabilityVerdict> refusalsOf(const PreparedGoal& goal,
+                                           const SolvabilityVerdict& first,
+                                           const Deadline& deadline);
 
 /// The answer to a goal that cannot be planned for.
 GoalAnswer refusal(const GoalError& error);

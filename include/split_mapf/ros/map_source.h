@@ -16,7 +16,7 @@ namespace split_mapf {
 /// @throws InputError as readMap().
 nav_msgs::OccupancyGrid readMapMessage(const std::string& path);
 
-/// The latest map on the topic `map`. Thread-safe.
+/// The latest map on the topic `map`; an empty one is none. Thread-safe.
 class MapSource {
  public:
   /// @param map_file  published on `map`, latched, unless empty. @throws InputError.

@@ -8,6 +8,8 @@ namespace split_mapf {
 
 /// Whether the quaternion is finite and of length 1, within 1 %.
 bool isUnitQuaternion(const geometry_msgs::Quaternion& q);
+/// Whether the quaternion is all zero, as in a message that nobody filled: no heading.
+bool isAllZero(const geometry_msgs::Quaternion& q);
 /// Rotation about z [rad]. @pre isUnitQuaternion(q).
 double yawOf(const geometry_msgs::Quaternion& q);
 /// The rotation about z by `yaw` [rad].

@@ -8,6 +8,7 @@
 #include <split_mapf/RobotFault.h>
 
 #include "split_mapf/core/termination.h"
+#include "split_mapf/ros/fault_list.h"
 
 namespace split_mapf {
 
@@ -52,12 +53,14 @@ class GoalError : public std::runtime_error {
       : std::runtime_error(message), outcome_(outcome) {}
   /// The outcome is the first fault's, the message its message with the number of further ones.
   /// @pre faults is not empty.
-  explicit GoalError(std::vector<RobotFault> faults);
+  explicit GoalError(const FaultList& faults);
 
   Outcome outcome() const { return outcome_; }
   const std::vector<RobotFault>& faults() const { return faults_; }
 
  private:
+  GoalError(std::vector<RobotFault> faults, std::size_t total);
+
   Outcome outcome_;
   std::vector<RobotFault> faults_;
 };

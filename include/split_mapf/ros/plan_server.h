@@ -64,6 +64,7 @@ class PlanServer {
   PreparedGoal prepareInTurn(ActiveGoal& goal, const GoalOptions& options,
                              const Deadline& deadline);
   GoalAnswer planInTurn(ActiveGoal& goal, const PreparedGoal& prepared, const Deadline& deadline);
+  void publish(const GoalAnswer& answer, const PlanningGrid& grid);
   /// @param when  what was cut short: "while the map was being read".
   GoalAnswer stopped(const ActiveGoal& goal, const Deadline& deadline,
                      const std::string& when) const;

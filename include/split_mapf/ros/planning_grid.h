@@ -20,8 +20,9 @@ namespace split_mapf {
 class MapGeometry {
  public:
   /// An all-zero origin orientation means no rotation, an empty frame `map`.
-  /// @throws GoalError (INVALID_MAP) for an empty or too large map, a resolution that is not a
-  /// positive number, an origin that is not finite, or one turned about x or y.
+  /// @throws GoalError (INVALID_MAP) for an empty or too large map, a resolution outside 1e-6 to
+  /// 1e6 m, an origin that is not finite, farther than 1e9 m or turned about x or y, and a frame
+  /// longer than kMostNameBytes.
   MapGeometry(const nav_msgs::MapMetaData& info, const std::string& frame_id);
 
   const nav_msgs::MapMetaData& info() const { return info_; }
@@ -40,6 +41,8 @@ class MapGeometry {
   Cell cellOf(std::uint32_t index) const;
   /// "(x,y)" with y counted from the bottom, as ROS users see the map.
   std::string describe(Cell cell) const;
+  /// "(x,y) at (1.250, 0.750) m": the centre in the map's frame.
+  std::string describeWithMetres(Cell cell) const;
 
  private:
   nav_msgs::MapMetaData info_;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <exception>
 #include <functional>
+#include <stdexcept>
 #include <string>
 
 #include <geometry_msgs/Point.h>
@@ -12,7 +14,14 @@
 
 namespace split_mapf {
 
-/// The position of a pose in another frame. @throws tf2::TransformException.
+/// Why a pose cannot be transformed: half a sentence for people, and what tf2 said.
+class TransformFailure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The position of a pose in another frame. The pose's orientation is not read.
+/// @throws TransformFailure.
 using PoseTransform = std::function<geometry_msgs::Point(const geometry_msgs::PoseStamped&,
                                                          const std::string& frame)>;
 
@@ -29,6 +38,11 @@ class PoseTransformer {
   PoseTransform forGoal(const Deadline& deadline) const;
 
  private:
+  geometry_msgs::Point transformed(const geometry_msgs::PoseStamped& pose, const std::string& from,
+                                   const std::string& into, const Deadline& patience) const;
+  std::string reason(const std::exception& error, const geometry_msgs::PoseStamped& pose,
+                     const std::string& from, const std::string& into) const;
+
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_;
 };

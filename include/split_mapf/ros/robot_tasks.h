@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include <nav_msgs/OccupancyGrid.h>
 #include <split_mapf/RobotTask.h>
 
 #include "split_mapf/core/instance.h"
@@ -18,12 +19,14 @@ struct PlacedRobots {
   std::vector<Cell> goals;
 };
 
-/// Finds the cells of all starts and goals.
+/// Finds the cells of all starts and goals. `map` is what the grid was made of: it tells an unknown
+/// cell from an occupied one.
 /// Two robots at one position are a DUPLICATE_START or DUPLICATE_GOAL; at different positions in
 /// one cell they are UNPLACEABLE. Both robots of such a pair are listed.
-/// @throws GoalError: NO_ROBOTS, or every robot at fault, in the goal's order.
+/// @throws GoalError: NO_ROBOTS, or every robot at fault, in the goal's order. An id longer than
+/// kMostNameBytes is INVALID_OPTION, such a frame INVALID_POSE.
 PlacedRobots placeRobots(const std::vector<RobotTask>& tasks, const PlanningGrid& grid,
-                         const PoseTransform& transform);
+                         const nav_msgs::OccupancyGrid& map, const PoseTransform& transform);
 
 /// @throws GoalError (UNREACHABLE_GOAL) listing every robot that cannot reach its goal even alone.
 /// Cost: O(cells), whatever the number of robots. @throws Interrupted.

@@ -1,0 +1,13 @@
+#include "split_mapf/ros/text_limits.h"
+
+#include "split_mapf/core/wording.h"
+
+namespace split_mapf {
+
+std::string faultOfName(const std::string& name) {
+  if (name.size() <= kMostNameBytes) return "";
+  return "has " + counted(name.size(), "byte") + "; at most " + std::to_string(kMostNameBytes) +
+         " are possible";
+}
+
+}  // namespace split_mapf
