@@ -11,3 +11,16 @@ add_test(NAME tool
   COMMAND ${CMAKE_COMMAND} -E env SPLIT_MAPF_COMMAND=$<TARGET_FILE:split_mapf>
     ${SPLIT_MAPF_PYTHON} -B -m unittest discover -s ${CMAKE_CURRENT_SOURCE_DIR}/test/tool -p *_test.py)
 set_tests_properties(tool PROPERTIES TIMEOUT 600)
+
+# Tests run side by side. These measure time: programs of seconds have the machine to themselves,
+# and of the rostests, which mostly wait, only one runs beside others that do not.
+get_property(split_mapf_tests DIRECTORY PROPERTY TESTS)
+foreach(test IN LISTS split_mapf_tests)
+  if(test MATCHES "(core|solver|pipeline|ilp|ros)_tests$")
+    set_tests_properties(${test} PROPERTIES RUN_SERIAL ON)
+  elseif(test MATCHES "rostest")
+    set_tests_properties(${test} PROPERTIES RESOURCE_LOCK clock)
+  elseif(test MATCHES "conformance_tests$")
+    set_tests_properties(${test} PROPERTIES COST 100) # the longest begins first
+  endif()
+endforeach()

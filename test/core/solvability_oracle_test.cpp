@@ -1,6 +1,6 @@
 // The rule is held against exhaustive search: the tests' evidence that it is exact. The fixed
-// sample takes seconds; SPLIT_MAPF_SOLVABILITY_CASES=<number> runs so many cases of the same
-// sequence, up to 10 vertices.
+// sample takes seconds, a long run has ten times as many cases;
+// SPLIT_MAPF_SOLVABILITY_CASES=<number> runs so many cases of the same sequence, up to 10 vertices.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -8,6 +8,7 @@
 #include <string>
 
 #include "split_mapf/core/solvability.h"
+#include "support/long_run.h"
 #include "support/oracle.h"
 #include "support/reachability.h"
 #include "support/small_instances.h"
@@ -27,6 +28,7 @@ struct SampleSize {
 
 SampleSize sampleSize() {
   SampleSize size;
+  if (test::isLongRun()) size.cases *= 10;
   if (const char* wished = std::getenv("SPLIT_MAPF_SOLVABILITY_CASES")) {
     size.cases = std::stoull(wished);
     size.most_arrangements = 400000;

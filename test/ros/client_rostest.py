@@ -71,8 +71,10 @@ class PlanClient(unittest.TestCase):
         code, output = self.run_client("--map", self.map, "--scen", self.scen,
                                        "--output", self.plan)
         self.assertEqual(code, 0, output)
-        for part in ("SUCCEEDED", "robots        4", "makespan", "sum of costs", "solve"):
+        for part in ("SUCCEEDED", "robots        4", "makespan", "sum of costs"):
             self.assertIn(part, output)
+        # Feedback and result are topics of their own: a fast plan may overtake the later stages.
+        self.assertRegex(output, r"(?m)^ +[0-9.]+ s  (check|split|solve|stitch|validate|refine)")
         with open(self.plan, encoding="ascii") as file:
             plan = json.load(file)
         self.assertEqual(plan["status"], "solved")

@@ -1,0 +1,20 @@
+# Long versions of random tests, for scripts/analyse soak: many more seeds than the usual run has. A
+# plain ctest leaves them out; `ctest -C soak -L soak` runs them and nothing else. They have the
+# environment variable SPLIT_MAPF_LONG=1, by which a test asks for its long version
+# (test/support/long_run.h).
+function(split_mapf_add_soak name)
+  add_test(NAME soak_${name} CONFIGURATIONS soak COMMAND ${ARGN}
+    WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+  set_tests_properties(soak_${name} PROPERTIES
+    LABELS soak ENVIRONMENT SPLIT_MAPF_LONG=1 TIMEOUT 900)
+endfunction()
+
+if(TARGET core_tests)
+  split_mapf_add_soak(solvability core_tests --gtest_filter=SolvabilityOracle.*)
+endif()
+if(TARGET solver_tests)
+  split_mapf_add_soak(lacam solver_tests --gtest_filter=Lacam.FindsAPlanOrProves*)
+endif()
+if(TARGET ilp_tests)
+  split_mapf_add_soak(ilp ilp_tests --gtest_filter=*IlpOracle.FindsAndProvesTheOptimum*)
+endif()
