@@ -13,14 +13,15 @@ add_test(NAME tool
 set_tests_properties(tool PROPERTIES TIMEOUT 600)
 
 # Tests run side by side. These measure time: programs of seconds have the machine to themselves,
-# and of the rostests, which mostly wait, only one runs beside others that do not.
+# and of the rostests, which mostly wait, only one runs beside others that do not. What takes
+# longest begins first.
 get_property(split_mapf_tests DIRECTORY PROPERTY TESTS)
 foreach(test IN LISTS split_mapf_tests)
   if(test MATCHES "(core|solver|pipeline|ilp|ros)_tests$")
     set_tests_properties(${test} PROPERTIES RUN_SERIAL ON)
   elseif(test MATCHES "rostest")
-    set_tests_properties(${test} PROPERTIES RESOURCE_LOCK clock)
+    set_tests_properties(${test} PROPERTIES RESOURCE_LOCK clock COST 100)
   elseif(test MATCHES "conformance_tests$")
-    set_tests_properties(${test} PROPERTIES COST 100) # the longest begins first
+    set_tests_properties(${test} PROPERTIES COST 200)
   endif()
 endforeach()
