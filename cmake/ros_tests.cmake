@@ -2,20 +2,20 @@
 find_package(rostest REQUIRED)
 
 add_library(split_mapf_ros_test_support STATIC EXCLUDE_FROM_ALL
-  test/ros/goal_messages.cpp test/ros/tracked_goal.cpp)
+  test/ros/goal_messages.cpp test/ros/strange_goals.cpp test/ros/tracked_goal.cpp)
 target_include_directories(split_mapf_ros_test_support PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/test)
 target_link_libraries(split_mapf_ros_test_support PUBLIC split_mapf_ros)
 split_mapf_compile_options(split_mapf_ros_test_support)
 
 split_mapf_add_tests(ros split_mapf_ros split_mapf_ros_test_support ${YAML_CPP_LIBRARIES})
 
-foreach(name plan_server queue recall)
+foreach(name plan_server queue recall strange_goals)
   add_rostest_gtest(${name}_rostest test/ros/${name}.test test/ros/${name}_rostest.cpp)
   target_include_directories(${name}_rostest PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/test)
   target_link_libraries(${name}_rostest split_mapf_ros_test_support split_mapf_test_support ${GTEST_LIBRARIES})
   target_compile_options(${name}_rostest PRIVATE ${SPLIT_MAPF_WARNINGS})
 endforeach()
 
-foreach(name client replay recording lifecycle sim_time launch big_maps)
+foreach(name client replay recording lifecycle sim_time launch big_maps termination)
   add_rostest(test/ros/${name}.test DEPENDENCIES planner_node replay_node split_mapf)
 endforeach()

@@ -18,3 +18,10 @@ endif()
 if(TARGET ilp_tests)
   split_mapf_add_soak(ilp ilp_tests --gtest_filter=*IlpOracle.FindsAndProvesTheOptimum*)
 endif()
+if(SPLIT_MAPF_ROS)
+  # rostest says how it went, but not by its exit code.
+  foreach(name strange_goals termination)
+    split_mapf_add_soak(${name} ${CMAKE_CURRENT_SOURCE_DIR}/test/ros/soak_rostest.sh
+      ${CMAKE_BINARY_DIR}/devel/setup.bash test/ros/${name}.test)
+  endforeach()
+endif()

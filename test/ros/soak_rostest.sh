@@ -1,0 +1,8 @@
+#!/usr/bin/env bash
+# Runs one rostest outside ctest's own list and exits non-zero unless every test of it passed.
+#
+# usage: soak_rostest.sh SETUP.BASH FILE.test
+set -eo pipefail
+# shellcheck source=/dev/null
+source "$1"
+rostest "$2" 2>&1 | tee /dev/stderr | grep -q 'RESULT: SUCCESS'
