@@ -86,7 +86,9 @@ SolveResult JointSolver::solve(const Instance& instance, const Deadline& deadlin
   }
   result.termination = Termination::kSolved;
   result.plan = groups.plan();
-  if (settings_->objective == Objective::kMakespan) {
+  // Not for nothing: its table has a bit for each cell and step.
+  if (sumOfCostsOf(*result.plan) > sumOfCostsLowerBound(instance) &&
+      settings_->objective == Objective::kMakespan) {
     result.plan =
         replanSingly(instance, *std::move(result.plan), {kPolishPasses, 1, nullptr}, deadline);
   }
