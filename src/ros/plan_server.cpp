@@ -163,6 +163,8 @@ GoalAnswer PlanServer::answer(ActiveGoal& goal) {
 
 PreparedGoal PlanServer::prepareInTurn(ActiveGoal& goal, const GoalOptions& options,
                                        const Deadline& deadline) {
+  // Whose time is over already has not waited for others.
+  if (deadline.expired()) throw PreparationStopped("before the map was read");
   const HeldSlot slot(preparations_, goal.ticket(), deadline);
   if (!slot.held()) throw PreparationStopped(kWhileOthersRead);
   return planner_.prepare(goal.message(), options, deadline);
@@ -170,6 +172,7 @@ PreparedGoal PlanServer::prepareInTurn(ActiveGoal& goal, const GoalOptions& opti
 
 GoalAnswer PlanServer::planInTurn(ActiveGoal& goal, const PreparedGoal& prepared,
                                   const Deadline& deadline) {
+  if (deadline.expired()) return stopped(goal, deadline, "when the map had been read");
   const HeldSlot slot(slots_, goal.ticket(), deadline);
   if (!slot.held()) return stopped(goal, deadline, kWhileOthersPlan);
   goal.accept();

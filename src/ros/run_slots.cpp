@@ -14,9 +14,9 @@ bool RunSlots::acquire(std::uint64_t ticket, const Deadline& deadline) {
   std::unique_lock<std::mutex> lock(mutex_);
   waiting_.insert(ticket);
   bool granted = false;
-  for (;;) {
+  while (!deadline.expired()) {
     granted = free_ > 0 && *waiting_.begin() == ticket;
-    if (granted || deadline.expired()) break;
+    if (granted) break;
     changed_.wait_for(lock, kPollInterval);
   }
   waiting_.erase(ticket);

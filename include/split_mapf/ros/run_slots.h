@@ -14,7 +14,7 @@ class RunSlots {
  public:
   explicit RunSlots(std::uint32_t slots) : free_(slots) {}
 
-  /// Waits for a slot until `deadline` expires; false means that others had them all. True when the
+  /// Waits for a slot until `deadline` expires. True when the
   /// caller has one; it gives it back by release(). Whoever waits with the smallest ticket comes
   /// first.
   /// @pre no two callers wait with the same ticket.
