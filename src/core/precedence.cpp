@@ -45,24 +45,24 @@ Precedence::Precedence(std::vector<Visit>&& visits, std::uint32_t vertices)
     if (v == 0 || visits_[v].robot != visits_[v - 1].robot) first_.push_back(v);
   }
   first_.push_back(size());
-  sortByStep();
   link();
 }
 
 /// By counting: steps are small numbers.
-void Precedence::sortByStep() {
+std::vector<VisitId> Precedence::inPlanOrder() const {
   std::uint32_t last = 0;
   for (const Visit& visit : visits_) last = std::max(last, visit.step);
   std::vector<std::uint32_t> place(last + std::size_t{2}, 0);
   for (const Visit& visit : visits_) ++place[visit.step + 1];
   for (std::size_t t = 1; t < place.size(); ++t) place[t] += place[t - 1];
-  order_.resize(visits_.size());
-  for (VisitId v = 0; v < visits_.size(); ++v) order_[place[visits_[v].step]++] = v;
+  std::vector<VisitId> order(visits_.size());
+  for (VisitId v = 0; v < visits_.size(); ++v) order[place[visits_[v].step]++] = v;
+  return order;
 }
 
 void Precedence::link() {
   std::vector<VisitId> latest(vertices_, kNoVisit);
-  for (const VisitId v : order_) {
+  for (const VisitId v : inPlanOrder()) {
     VisitId& before = latest[visits_[v].vertex];
     visits_[v].before = before;
     if (before != kNoVisit) visits_[before].after = v;
@@ -76,7 +76,7 @@ std::vector<Ring> findRings(const Precedence& precedence) {
   std::vector<bool> seen(precedence.size(), false);
   std::vector<Ring> rings;
   Ring chain;
-  for (const VisitId start : precedence.inPlanOrder()) {
+  for (VisitId start = 0; start < precedence.size(); ++start) {
     chain.clear();
     VisitId event = start;
     while (event != kNoVisit && !seen[event]) {
@@ -86,6 +86,9 @@ std::vector<Ring> findRings(const Precedence& precedence) {
     }
     if (event == start && !chain.empty()) rings.push_back(chain);
   }
+  std::stable_sort(rings.begin(), rings.end(), [&](const Ring& a, const Ring& b) {
+    return precedence[a.front()].step < precedence[b.front()].step;
+  });
   return rings;
 }
 

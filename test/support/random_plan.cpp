@@ -10,8 +10,15 @@ Plan randomValidPlan(const Grid& grid, std::uint32_t robots, std::uint32_t steps
   std::vector<Vertex> cells(grid.size());
   for (Vertex v = 0; v < grid.size(); ++v) cells[v] = v;
   shuffle(cells, engine);
+  cells.resize(robots);
+  return randomWalkFrom(grid, cells, steps, engine);
+}
+
+Plan randomWalkFrom(const Grid& grid, const std::vector<Vertex>& starts, std::uint32_t steps,
+                    RandomEngine& engine) {
+  const auto robots = static_cast<std::uint32_t>(starts.size());
   Plan plan;
-  for (std::uint32_t i = 0; i < robots; ++i) plan.paths.push_back({cells[i]});
+  for (const Vertex v : starts) plan.paths.push_back({v});
   constexpr std::uint32_t kNobody = 0xffffffffU;
   for (std::uint32_t t = 0; t < steps; ++t) {
     // Wishes are withdrawn until none conflicts: what is left may follow and rotate.

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "split_mapf/core/grid.h"
 #include "split_mapf/core/instance.h"
@@ -14,6 +15,10 @@ namespace split_mapf::test {
 /// Paths end at their arrivals. @pre robots <= grid.size().
 Plan randomValidPlan(const Grid& grid, std::uint32_t robots, std::uint32_t steps,
                      RandomEngine& engine);
+
+/// The same from given starts, each another vertex.
+Plan randomWalkFrom(const Grid& grid, const std::vector<Vertex>& starts, std::uint32_t steps,
+                    RandomEngine& engine);
 
 /// The instance that a plan solves.
 Instance instanceOf(std::shared_ptr<const Grid> grid, const Plan& plan);

@@ -61,18 +61,16 @@ class Precedence {
   VisitId awaitedBy(VisitId visit) const {
     return isFirst(visit) ? kNoVisit : visits_[visit - 1].after;
   }
-  /// All visits, ordered by the step at which the plan begins them.
-  const std::vector<VisitId>& inPlanOrder() const { return order_; }
+  /// All visits, ordered by the step at which the plan begins them. Cost: O(visits).
+  std::vector<VisitId> inPlanOrder() const;
 
  private:
   Precedence(std::vector<Visit>&& visits, std::uint32_t vertices);
-  void sortByStep();
   void link();
 
   std::uint32_t vertices_;
   std::vector<Visit> visits_;
   std::vector<VisitId> first_;  // by robot, and the number of all behind the last
-  std::vector<VisitId> order_;
 };
 
 /// Robots that rotate in one step of a plan: each moves to the vertex that the next one leaves, the

@@ -1,0 +1,78 @@
+#include "split_mapf/core/execution_cut.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace split_mapf {
+namespace {
+
+bool isUnderWay(const ExecutionGraph& graph, std::uint32_t robot) {
+  return graph.progress(robot) > 0;
+}
+
+}  // namespace
+
+bool isDownwardClosed(const ExecutionGraph& graph, const Cut& cut) {
+  const Precedence& order = graph.precedence();
+  const auto contains = [&](VisitId event) { return event <= cut[order[event].robot]; };
+  for (std::uint32_t robot = 0; robot < order.robots(); ++robot) {
+    if (cut[robot] < graph.at(robot) + (isUnderWay(graph, robot) ? 1 : 0)) return false;
+    for (VisitId event = graph.at(robot) + 1; event <= cut[robot]; ++event) {
+      const VisitId awaited = order.awaits(event);
+      if (awaited != kNoVisit && !contains(awaited)) return false;
+      const Ring* const ring = graph.ringOf(event);
+      if (ring != nullptr && !std::all_of(ring->begin(), ring->end(), contains)) return false;
+    }
+  }
+  return true;
+}
+
+Cut cutBefore(const ExecutionGraph& graph, const Forecast& forecast, std::uint32_t tick) {
+  const Precedence& order = graph.precedence();
+  Cut cut(order.robots());
+  for (std::uint32_t robot = 0; robot < order.robots(); ++robot) {
+    VisitId last = graph.at(robot) + (isUnderWay(graph, robot) ? 1 : 0);
+    while (last < order.last(robot) && forecast.begins[last + 1] < tick) ++last;
+    cut[robot] = last;
+  }
+  return cut;
+}
+
+Precedence restBehind(const ExecutionGraph& graph, const Cut& cut) {
+  const Precedence& order = graph.precedence();
+  std::vector<Visit> visits;
+  for (std::uint32_t robot = 0; robot < order.robots(); ++robot) {
+    for (VisitId v = cut[robot]; v <= order.last(robot); ++v) visits.push_back(order[v]);
+  }
+  return Precedence::fromVisits(std::move(visits), order.vertices());
+}
+
+ExecutionGraph concatenate(const ExecutionGraph& graph, const Cut& cut, const Plan& plan) {
+  const Precedence& order = graph.precedence();
+  std::uint32_t least = 0xffffffffU;
+  std::uint32_t most = 0;
+  for (std::uint32_t robot = 0; robot < order.robots(); ++robot) {
+    least = std::min(least, order[graph.at(robot)].step);
+    most = std::max(most, order[cut[robot]].step);
+  }
+  std::vector<Visit> visits;
+  for (std::uint32_t robot = 0; robot < order.robots(); ++robot) {
+    for (VisitId v = graph.at(robot); v <= cut[robot]; ++v) {
+      visits.push_back({order[v].vertex, robot, order[v].step - least, kNoVisit, kNoVisit});
+    }
+    const Path& path = plan.paths[robot];
+    for (std::uint32_t t = 1; t < path.size(); ++t) {
+      if (path[t] == path[t - 1]) continue;
+      visits.push_back({path[t], robot, most - least + t, kNoVisit, kNoVisit});
+    }
+  }
+  Precedence joined = Precedence::fromVisits(std::move(visits), order.vertices());
+  ExecutionGraph result(std::move(joined), graph.release());
+  for (std::uint32_t robot = 0; robot < order.robots(); ++robot) {
+    if (!isUnderWay(graph, robot)) continue;
+    result.resume(robot, graph.progress(robot));
+  }
+  return result;
+}
+
+}  // namespace split_mapf

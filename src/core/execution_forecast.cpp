@@ -1,0 +1,156 @@
+#include "split_mapf/core/execution_forecast.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+namespace split_mapf {
+namespace {
+
+/// Quarter turns between two moves of one cell each.
+std::uint8_t turnsBetween(Cell a, Cell b, Cell c) {
+  const std::int32_t ahead = (b.x - a.x) * (c.x - b.x) + (b.y - a.y) * (c.y - b.y);
+  return static_cast<std::uint8_t>(ahead > 0 ? 0 : (ahead < 0 ? 2 : 1));
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> quarterTurns(const Grid& grid, const Precedence& precedence) {
+  std::vector<std::uint8_t> turns(precedence.size(), 0);
+  for (std::uint32_t robot = 0; robot < precedence.robots(); ++robot) {
+    for (VisitId v = precedence.first(robot) + 2; v <= precedence.last(robot); ++v) {
+      turns[v] =
+          turnsBetween(grid.cellOf(precedence[v - 2].vertex), grid.cellOf(precedence[v - 1].vertex),
+                       grid.cellOf(precedence[v].vertex));
+    }
+  }
+  return turns;
+}
+
+namespace {
+
+/// Events in plan order; those of a step that wait for each other from the first of them on.
+class ForecastRun {
+ public:
+  ForecastRun(const ExecutionGraph& graph, const MotionTimes& times,
+              const std::vector<std::uint8_t>& turns, const std::vector<std::uint32_t>& stands)
+      : graph_(graph),
+        order_(graph.precedence()),
+        times_(times),
+        turns_(turns),
+        stands_(stands),
+        release_ticks_(static_cast<std::uint32_t>(std::ceil(graph.release() * times.move - 1e-6))),
+        settled_(order_.size(), false) {
+    result_.begins.assign(order_.size(), 0);
+    result_.ends.assign(order_.size(), 0);
+  }
+
+  Forecast run() {
+    for (std::uint32_t robot = 0; robot < order_.robots(); ++robot) settleThePast(robot);
+    for (const VisitId event : order_.inPlanOrder()) {
+      if (!settled_[event]) settleChain(event);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  std::uint32_t standOf(std::uint32_t robot) const { return stands_.empty() ? 0 : stands_[robot]; }
+
+  void settleThePast(std::uint32_t robot) {
+    const VisitId at = graph_.at(robot);
+    for (VisitId v = order_.first(robot); v <= at; ++v) settled_[v] = true;
+    if (graph_.isDone(robot) || graph_.progress(robot) <= 0) return;
+    const double left = (1 - static_cast<double>(graph_.progress(robot))) * times_.move;
+    result_.ends[at + 1] =
+        standOf(robot) + static_cast<std::uint32_t>(std::ceil(left - kRounding * times_.move));
+    settled_[at + 1] = true;
+  }
+
+  /// The soonest begin that the robot itself allows.
+  std::uint32_t soonestOf(VisitId event) const {
+    const std::uint32_t robot = order_[event].robot;
+    const std::uint32_t turns = turns_.empty() ? 0 : turns_[event];
+    const std::uint32_t stand = event == graph_.at(robot) + 1 ? standOf(robot) : 0;
+    return std::max(result_.ends[event - 1], stand) + turns * times_.turn;
+  }
+
+  /// The soonest begin that the robot before it allows. @pre that one's event is settled.
+  std::uint32_t releaseOf(VisitId event) const {
+    const VisitId awaited = order_.awaits(event);
+    if (awaited == kNoVisit) return 0;
+    // In a convoy the follower keeps behind even one that has begun to leave.
+    const bool convoy = graph_.release() <= 0 && isUnderWay(awaited);
+    if (graph_.hasLeft(awaited) && !convoy) return 0;
+    // Counted from the end of its move: before, it may start slowly, or stand.
+    const std::uint32_t after = times_.move - release_ticks_;
+    return result_.ends[awaited] > after ? result_.ends[awaited] - after : 0;
+  }
+
+  bool isUnderWay(VisitId event) const {
+    const std::uint32_t robot = order_[event].robot;
+    return event == graph_.at(robot) + 1 && graph_.progress(robot) > 0;
+  }
+
+  VisitId leaderOf(VisitId event) const {
+    const VisitId awaited = order_.awaits(event);
+    const bool same = awaited != kNoVisit && order_[awaited].step == order_[event].step;
+    return same && !settled_[awaited] ? awaited : kNoVisit;
+  }
+
+  void settleChain(VisitId event) {
+    chain_.clear();
+    VisitId leader = event;
+    do {
+      chain_.push_back(leader);
+      leader = leaderOf(leader);
+    } while (leader != kNoVisit && leader != event);
+    if (leader == event) return settleRing();
+    for (auto follower = chain_.rbegin(); follower != chain_.rend(); ++follower) {
+      settle(*follower, std::max(soonestOf(*follower), releaseOf(*follower)));
+    }
+  }
+
+  void settleRing() {
+    std::uint32_t begin = 0;
+    for (const VisitId event : chain_) begin = std::max(begin, soonestOf(event));
+    for (const VisitId event : chain_) settle(event, begin);
+  }
+
+  void settle(VisitId event, std::uint32_t begin) {
+    const bool rests = begin > result_.ends[event - 1] || order_.isFirst(event - 1);
+    result_.begins[event] = begin;
+    result_.ends[event] = begin + (rests ? times_.start : 0) + times_.move;
+    settled_[event] = true;
+  }
+
+  static constexpr double kRounding = 1e-6;
+
+  const ExecutionGraph& graph_;
+  const Precedence& order_;
+  const MotionTimes& times_;
+  const std::vector<std::uint8_t>& turns_;
+  const std::vector<std::uint32_t>& stands_;
+  std::uint32_t release_ticks_;
+  std::vector<bool> settled_;
+  std::vector<VisitId> chain_;
+  Forecast result_;
+};
+
+}  // namespace
+
+Forecast forecast(const ExecutionGraph& graph, const MotionTimes& times,
+                  const std::vector<std::uint8_t>& turns,
+                  const std::vector<std::uint32_t>& stands) {
+  return ForecastRun(graph, times, turns, stands).run();
+}
+
+std::uint64_t sumOfArrivals(const Precedence& precedence, const Forecast& forecast) {
+  std::uint64_t sum = 0;
+  for (std::uint32_t robot = 0; robot < precedence.robots(); ++robot) {
+    sum += forecast.ends[precedence.last(robot)];
+  }
+  return sum;
+}
+
+}  // namespace split_mapf
