@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "split_mapf/core/distance_table.h"
 #include "split_mapf/core/instance.h"
@@ -12,6 +13,9 @@ namespace split_mapf {
 /// A robot that arrives later than it could alone; those that lose more are likelier. Any robot
 /// where nobody loses. Cost: O(robots).
 std::uint32_t drawDelayed(const Instance& instance, const Plan& plan, RandomEngine& engine);
+/// The same where it is known when each robot could arrive alone [steps]: for who asks often.
+std::uint32_t drawDelayed(const std::vector<std::uint32_t>& soonest, const Plan& plan,
+                          RandomEngine& engine);
 
 /// A step that brings the robot no nearer to its goal; any step where there is none.
 std::uint32_t drawLostStep(const Path& path, const DistanceTable& distances, RandomEngine& engine);

@@ -13,8 +13,10 @@ constexpr std::uint32_t kMostWeight = 1024;
 
 }  // namespace
 
-EjectionChain::EjectionChain(const Instance& instance, std::uint32_t latest_arrival)
+EjectionChain::EjectionChain(const Instance& instance, std::uint32_t latest_arrival,
+                             Departures departures)
     : instance_(instance),
+      departures_(std::move(departures)),
       latest_arrival_(latest_arrival),
       search_(instance.graph()),
       weights_(instance.robots(), 1) {}
@@ -42,14 +44,28 @@ void EjectionChain::eject(std::uint32_t robot, const Path& by, std::uint32_t rea
   if (!link.waits) {
     spare_ += costOf(link.path) - oldCost(link);
     wait(static_cast<std::size_t>(&link - links_.data()),
-         keptUntil(link.path, *firstConflict(by, link.path), reach));
+         std::max(departures_(robot), keptUntil(link.path, *firstConflict(by, link.path), reach)));
     return;
   }
   // It waits for its turn, and even what it keeps is in the way: it will begin at its start.
   table_->removeHead(robot, link.path, link.kept);
   table_->insert(robot, link.path);
-  table_->removeTail(robot, link.path, 0);
-  link.kept = 0;
+  link.kept = departures_(robot);
+  table_->removeTail(robot, link.path, link.kept);
+}
+
+/// Nobody is ejected from where it has to stand.
+bool EjectionChain::mayAllBeEjected(std::size_t link, const Path& by) const {
+  if (!departures_.any()) return true;
+  const std::vector<std::uint32_t> robots = robotsInTheWay(table_->paths(), by);
+  return std::all_of(robots.begin(), robots.end(), [&](std::uint32_t robot) {
+    if (robot == links_[link].robot) return true;
+    const auto known = std::find_if(links_.begin(), links_.end(),
+                                    [robot](const Link& other) { return other.robot == robot; });
+    const Path& path = known != links_.end() ? known->path : plan_->paths[robot];
+    if (departures_.holds(robot, path)) return false;
+    return departures_(robot) == 0 || *firstConflict(by, path) > departures_(robot);
+  });
 }
 
 Path EjectionChain::search(const ChainStart& start, const Link& link, std::uint32_t latest_arrival,
@@ -60,7 +76,12 @@ Path EjectionChain::search(const ChainStart& start, const Link& link, std::uint3
   query.hasty = start.hasty;
   GapAnswer answer = search_.search(query, deadline);
   expansions_ += answer.expansions;
-  if (!answer.path.empty()) std::copy_n(link.path.begin(), link.kept, answer.path.begin());
+  if (!answer.path.empty()) {
+    std::copy_n(link.path.begin(), link.kept, answer.path.begin());
+    while (answer.path.size() > 1 && *(answer.path.end() - 2) == answer.path.back()) {
+      answer.path.pop_back();
+    }
+  }
   return std::move(answer.path);
 }
 
@@ -75,7 +96,7 @@ bool EjectionChain::placeNext(const ChainStart& start, const Deadline& deadline)
   const std::int64_t latest = std::min<std::int64_t>(most, latest_arrival_);
   if (latest < 0) return false;
   Path path = search(start, links_[index], static_cast<std::uint32_t>(latest), may_eject, deadline);
-  if (path.empty()) return false;
+  if (path.empty() || !mayAllBeEjected(index, path)) return false;
   waiting_.pop_front();
   const std::uint32_t robot = links_[index].robot;
   table_->removeHead(robot, links_[index].path, links_[index].kept);
@@ -99,7 +120,7 @@ bool EjectionChain::placeAll(const ChainStart& start, const Deadline& deadline) 
   table_->remove(start.robot, plan_->paths[start.robot]);
   table_->insert(start.robot, start.path);
   links_.push_back({start.robot, start.path});
-  wait(0, keptUntil(start.path, start.event, start.reach));
+  wait(0, std::max(departures_(start.robot), keptUntil(start.path, start.event, start.reach)));
   while (!waiting_.empty()) {
     if (!placeNext(start, deadline)) return false;
   }

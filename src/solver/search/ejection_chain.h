@@ -5,6 +5,7 @@
 #include <deque>
 #include <vector>
 
+#include "solver/search/departures.h"
 #include "solver/search/eviction_search.h"
 #include "solver/search/reservation_table.h"
 #include "solver/search/retiming.h"
@@ -42,7 +43,7 @@ struct ChainStart {
 class EjectionChain {
  public:
   /// @param latest_arrival  nobody arrives after it. The instance outlives this object.
-  EjectionChain(const Instance& instance, std::uint32_t latest_arrival);
+  EjectionChain(const Instance& instance, std::uint32_t latest_arrival, Departures departures = {});
 
   /// @return whether everybody found a path: then the new ones are in the table, else the old ones.
   /// @pre the table holds the paths of the plan, which is valid.
@@ -71,6 +72,7 @@ class EjectionChain {
   bool placeNext(const ChainStart& start, const Deadline& deadline);
   Path search(const ChainStart& start, const Link& link, std::uint32_t latest_arrival,
               bool may_eject, const Deadline& deadline);
+  bool mayAllBeEjected(std::size_t link, const Path& by) const;
   void eject(std::uint32_t robot, const Path& by, std::uint32_t reach);
   Link& linkOf(std::uint32_t robot);
   std::int64_t costOf(const Path& path) const { return static_cast<std::int64_t>(path.size() - 1); }
@@ -79,6 +81,7 @@ class EjectionChain {
   void finish();
 
   const Instance& instance_;
+  const Departures departures_;
   std::uint32_t latest_arrival_;
   EvictionSearch search_;
   WaitPlacer waits_;

@@ -1,17 +1,28 @@
 #include "solver/search/neighbourhood.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "solver/search/delayed_robots.h"
 
 namespace split_mapf {
 
-std::uint32_t Neighbourhood::keptUntil(const Path& path) const {
-  return split_mapf::keptUntil(path, event, reach);
+std::uint32_t Neighbourhood::keptUntil(const Path& path, std::uint32_t departure) const {
+  return std::max(departure, split_mapf::keptUntil(path, event, reach));
 }
 
-NeighbourhoodPicker::NeighbourhoodPicker(const Instance& instance, std::uint64_t seed)
-    : instance_(instance), engine_(seed), marks_(instance.robots(), 0) {}
+NeighbourhoodPicker::NeighbourhoodPicker(const Instance& instance, std::uint64_t seed,
+                                         Departures departures)
+    : instance_(instance),
+      departures_(std::move(departures)),
+      soonest_(departures_.soonestArrivals(instance)),
+      engine_(seed),
+      marks_(instance.robots(), 0) {}
+
+std::uint32_t NeighbourhoodPicker::keptUntil(const Plan& plan, std::uint32_t robot,
+                                             const Neighbourhood& picked) const {
+  return picked.keptUntil(plan.paths[robot], departures_(robot));
+}
 
 void NeighbourhoodPicker::reward(std::uint64_t gain, std::uint64_t expansions) {
   const double rate = gainRate(gain, expansions);
@@ -28,9 +39,11 @@ void NeighbourhoodPicker::add(std::uint32_t robot, std::vector<std::uint32_t>& r
   robots.push_back(robot);
 }
 
-std::uint32_t NeighbourhoodPicker::drawStep(const Path& path, const Neighbourhood& picked) {
-  const std::uint32_t kept = picked.keptUntil(path);
-  const auto last = std::min(picked.event, static_cast<std::uint32_t>(path.size() - 1));
+std::uint32_t NeighbourhoodPicker::drawStep(const Plan& plan, std::uint32_t robot,
+                                            const Neighbourhood& picked) {
+  const std::uint32_t kept = keptUntil(plan, robot, picked);
+  const auto arrival = static_cast<std::uint32_t>(plan.paths[robot].size() - 1);
+  const std::uint32_t last = std::max(kept, std::min(picked.event, arrival));
   return kept + static_cast<std::uint32_t>(drawBelow(engine_, last - kept + 1));
 }
 
@@ -51,8 +64,8 @@ void NeighbourhoodPicker::walkInTheWay(const Plan& plan, const PathTable& table,
   const auto cost = static_cast<std::uint32_t>(path.size() - 1);
   constexpr int kWalks = 10;
   for (int walk = 0; walk < kWalks && picked.robots.size() < size; ++walk) {
-    std::uint32_t t = drawStep(path, picked);
-    Vertex at = path[t];
+    std::uint32_t t = drawStep(plan, robot, picked);
+    Vertex at = positionAt(path, t);
     while (picked.robots.size() < size) {
       // Any step from which the robot could still arrive earlier than it does.
       Vertex next = kNoVertex;
@@ -76,8 +89,8 @@ void NeighbourhoodPicker::takeAroundArrival(const Plan& plan, const PathTable& t
   const Path& path = plan.paths[robot];
   const DistanceTable& distances = instance_.distances(robot);
   const auto cost = static_cast<std::uint32_t>(path.size() - 1);
-  std::uint32_t t = picked.keptUntil(path);
-  Vertex at = path[t];
+  std::uint32_t t = keptUntil(plan, robot, picked);
+  Vertex at = positionAt(path, t);
   // Who passes its goal when it could be there.
   addOccupants(table, path.back(), t + distances(at), cost, size, picked.robots);
   // Who stands on a shortest way to it.
@@ -94,9 +107,8 @@ void NeighbourhoodPicker::takeAroundArrival(const Plan& plan, const PathTable& t
 
 void NeighbourhoodPicker::takeCrowd(const Plan& plan, const PathTable& table, std::uint32_t robot,
                                     std::size_t size, Neighbourhood& picked) {
-  const Path& path = plan.paths[robot];
-  const std::uint32_t t = drawStep(path, picked);
-  std::vector<Vertex> queue = {path[t]};
+  const std::uint32_t t = drawStep(plan, robot, picked);
+  std::vector<Vertex> queue = {positionAt(plan.paths[robot], t)};
   constexpr std::size_t kMostCells = 60;
   constexpr std::uint32_t kSpan = 3;
   for (std::size_t i = 0; i < queue.size() && picked.robots.size() < size; ++i) {
@@ -108,13 +120,25 @@ void NeighbourhoodPicker::takeCrowd(const Plan& plan, const PathTable& table, st
   }
 }
 
+/// Who stands at its goal for now stays there; but for the first robot, which no other may replace.
+void NeighbourhoodPicker::dropWhoStays(const Plan& plan, std::uint32_t first,
+                                       std::vector<std::uint32_t>& robots) const {
+  if (!departures_.any()) return;
+  robots.erase(std::remove_if(robots.begin(), robots.end(),
+                              [&](std::uint32_t robot) {
+                                return robot != first &&
+                                       departures_.holds(robot, plan.paths[robot]);
+                              }),
+               robots.end());
+}
+
 void NeighbourhoodPicker::pick(const Plan& plan, const PathTable& table, Neighbourhood& picked) {
   std::vector<std::uint32_t>& robots = picked.robots;
   robots.clear();
   ++pick_number_;
   const std::size_t way = ways_.draw(engine_);
   const std::size_t size = std::min<std::size_t>(kSizes[sizes_.draw(engine_)], instance_.robots());
-  const std::uint32_t robot = drawDelayed(instance_, plan, engine_);
+  const std::uint32_t robot = drawDelayed(soonest_, plan, engine_);
   picked.reach = kReaches[reaches_.draw(engine_)];
   picked.event = drawLostStep(plan.paths[robot], instance_.distances(robot), engine_);
   picked.sideways = drawBelow(engine_, in_vain_ + instance_.robots()) < in_vain_;
@@ -129,6 +153,7 @@ void NeighbourhoodPicker::pick(const Plan& plan, const PathTable& table, Neighbo
       add(static_cast<std::uint32_t>(drawBelow(engine_, instance_.robots())), robots);
     }
   }
+  dropWhoStays(plan, robot, robots);
   shuffle(robots, engine_);
   if (picked.sideways) return;
   std::swap(robots.front(), *std::find(robots.begin(), robots.end(), robot));

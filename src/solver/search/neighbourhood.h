@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/search/adaptive_choice.h"
+#include "solver/search/departures.h"
 #include "solver/search/path_table.h"
 #include "solver/search/stay.h"
 #include "split_mapf/core/instance.h"
@@ -27,8 +28,9 @@ struct Neighbourhood {
   std::uint32_t event = 0;
   std::uint32_t reach = 0;
 
-  /// The step up to which a robot keeps its path: one at which it comes to a vertex.
-  std::uint32_t keptUntil(const Path& path) const;
+  /// The step up to which a robot keeps its path: one at which it comes to a vertex, or may leave
+  /// its start.
+  std::uint32_t keptUntil(const Path& path, std::uint32_t departure = 0) const;
 };
 
 /// Chooses the robots that are planned anew together, and the part of their paths, in one of
@@ -42,7 +44,7 @@ struct Neighbourhood {
 /// And either everybody is planned anew, or, with a fraction of the searches, only who has to be.
 class NeighbourhoodPicker {
  public:
-  NeighbourhoodPicker(const Instance& instance, std::uint64_t seed);
+  NeighbourhoodPicker(const Instance& instance, std::uint64_t seed, Departures departures = {});
 
   /// Puts at least one robot into `picked`. @param table holds the paths of the plan.
   void pick(const Plan& plan, const PathTable& table, Neighbourhood& picked);
@@ -55,10 +57,13 @@ class NeighbourhoodPicker {
   static constexpr std::array<std::uint32_t, 3> kReaches = {16, 64, kForever};
 
   void add(std::uint32_t robot, std::vector<std::uint32_t>& robots);
+  std::uint32_t keptUntil(const Plan& plan, std::uint32_t robot, const Neighbourhood& picked) const;
   void addOccupants(const PathTable& table, Vertex v, std::uint32_t from, std::uint32_t to,
                     std::size_t size, std::vector<std::uint32_t>& robots);
+  void dropWhoStays(const Plan& plan, std::uint32_t first,
+                    std::vector<std::uint32_t>& robots) const;
   /// A step of the robot's path at which the neighbourhood may look around.
-  std::uint32_t drawStep(const Path& path, const Neighbourhood& picked);
+  std::uint32_t drawStep(const Plan& plan, std::uint32_t robot, const Neighbourhood& picked);
   void walkInTheWay(const Plan& plan, const PathTable& table, std::uint32_t robot, std::size_t size,
                     Neighbourhood& picked);
   void takeAroundArrival(const Plan& plan, const PathTable& table, std::uint32_t robot,
@@ -67,6 +72,8 @@ class NeighbourhoodPicker {
                  Neighbourhood& picked);
 
   const Instance& instance_;
+  const Departures departures_;
+  const std::vector<std::uint32_t> soonest_;  // arrival of each robot alone
   RandomEngine engine_;
   AdaptiveChoice<kWays> ways_;
   AdaptiveChoice<kSizes.size()> sizes_;

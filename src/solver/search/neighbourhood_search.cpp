@@ -9,13 +9,16 @@
 namespace split_mapf {
 
 NeighbourhoodSearch::NeighbourhoodSearch(const Instance& instance, Plan plan,
-                                         std::uint32_t latest_arrival, std::uint64_t seed)
+                                         std::uint32_t latest_arrival, std::uint64_t seed,
+                                         const Departures& departures)
     : instance_(instance),
+      departures_(departures),
+      soonest_(departures.soonestArrivals(instance)),
       latest_arrival_(latest_arrival),
-      picker_(instance, seed),
+      picker_(instance, seed, departures),
       engine_(seed),
       search_(instance.graph()),
-      chain_(instance, latest_arrival),
+      chain_(instance, latest_arrival, departures),
       plan_(std::move(plan)),
       table_(instance.graph().size(), plan_) {}
 
@@ -43,11 +46,13 @@ bool NeighbourhoodSearch::pick(double temperature) {
   std::uint64_t least = 0;
   for (const std::uint32_t robot : picked_.robots) {
     const Path& path = plan_.paths[robot];
+    if (departures_.holds(robot, path)) return false;
     Member member;
     member.robot = robot;
-    member.kept = picked_.keptUntil(path);
+    member.kept = picked_.keptUntil(path, departures_(robot));
     member.cost = static_cast<std::uint32_t>(path.size() - 1);
-    const std::uint32_t soonest = member.kept + instance_.distances(robot)(path[member.kept]);
+    const std::uint32_t way = instance_.distances(robot)(path[member.kept]);
+    const std::uint32_t soonest = way > 0 ? member.kept + way : beginOfStay(path, member.kept);
     member.set_aside = picked_.keeps ? member.cost : soonest;
     members_.push_back(member);
     budget_ += member.cost;
@@ -66,6 +71,9 @@ Path NeighbourhoodSearch::search(const Member& member, std::uint32_t latest_arri
   expansions_ += answer.expansions;
   if (!answer.path.empty()) {
     std::copy_n(before.begin(), member.kept, answer.path.begin());
+    while (answer.path.size() > 1 && *(answer.path.end() - 2) == answer.path.back()) {
+      answer.path.pop_back();
+    }
     waits_.place(table_, answer.path, member.kept);
   }
   return std::move(answer.path);
@@ -145,9 +153,10 @@ std::int64_t NeighbourhoodSearch::tryNeighbourhood(const Deadline& deadline, con
 std::int64_t NeighbourhoodSearch::tryChain(const Deadline& deadline, const Accept& accept,
                                            double temperature) {
   ChainStart start;
-  start.robot = drawDelayed(instance_, plan_, engine_);
+  start.robot = drawDelayed(soonest_, plan_, engine_);
+  if (departures_.holds(start.robot, plan_.paths[start.robot])) return 0;
   // Its waits may be far from what keeps it.
-  start.path = soonestAlong(table_, plan_.paths[start.robot]);
+  start.path = soonestAlong(table_, plan_.paths[start.robot], departures_(start.robot));
   start.event = drawLostStep(start.path, instance_.distances(start.robot), engine_);
   start.reach = kChainReaches[chain_reaches_.draw(engine_)];
   start.searches = kChainSearches[chain_searches_.draw(engine_)];

@@ -32,8 +32,9 @@ class NeighbourhoodSearch {
 
   /// @param latest_arrival  nobody arrives after it. @pre the plan is valid and keeps it, its paths
   /// end at their arrivals; the instance outlives this object.
+  /// @param departures  kept by the plan, as by all that come of it.
   NeighbourhoodSearch(const Instance& instance, Plan plan, std::uint32_t latest_arrival,
-                      std::uint64_t seed);
+                      std::uint64_t seed, const Departures& departures = {});
 
   /// Tries one chain or neighbourhood; returns how many steps it gained: less than none where it
   /// may become worse. @param temperature  mean of what it may lose, drawn as in simulated
@@ -68,6 +69,8 @@ class NeighbourhoodSearch {
   Path search(const Member& member, std::uint32_t latest_arrival, const Deadline& deadline);
 
   const Instance& instance_;
+  const Departures departures_;
+  const std::vector<std::uint32_t> soonest_;  // arrival of each robot alone
   std::uint32_t latest_arrival_;
   NeighbourhoodPicker picker_;
   RandomEngine engine_;

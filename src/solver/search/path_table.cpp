@@ -42,30 +42,35 @@ void PathTable::remove(std::uint32_t robot, const Path& path) {
 }
 
 void PathTable::removeTail(std::uint32_t robot, const Path& path, std::uint32_t from) {
-  forEachStay(path, from, [&](Vertex v, std::uint32_t begin, std::uint32_t, Vertex) {
-    const auto stay = find(robot, v, begin);
-    if (begin == from) {
-      stay->end = from + 1;
-      stay->next = kNoVertex;
-    } else {
-      stays_[v].erase(stay);
-    }
+  const Vertex at = positionAt(path, from);
+  const auto kept = find(robot, at, beginOfStay(path, from));
+  const std::uint32_t end = kept->end;
+  kept->end = from + 1;
+  kept->next = kNoVertex;
+  timelines_[at].clear();
+  forEachStay(path, end, [&](Vertex v, std::uint32_t begin, std::uint32_t, Vertex) {
+    stays_[v].erase(find(robot, v, begin));
     timelines_[v].clear();
   });
 }
 
 void PathTable::insertTail(std::uint32_t robot, const Path& path, std::uint32_t from) {
-  forEachStay(path, from, [&](Vertex v, std::uint32_t begin, std::uint32_t end, Vertex next) {
-    if (begin > from) return insert(robot, v, begin, end, next);
-    const auto stay = find(robot, v, begin);
-    stay->end = end;
-    stay->next = next;
-    timelines_[v].clear();
+  const Vertex at = positionAt(path, from);
+  const auto kept = find(robot, at, beginOfStay(path, from));
+  const auto size = static_cast<std::uint32_t>(path.size());
+  std::uint32_t end = from + 1;
+  while (end < size && path[end] == at) ++end;
+  kept->end = end < size ? end : kForever;
+  kept->next = end < size ? path[end] : kNoVertex;
+  timelines_[at].clear();
+  forEachStay(path, end, [&](Vertex v, std::uint32_t begin, std::uint32_t stay_end, Vertex next) {
+    insert(robot, v, begin, stay_end, next);
   });
 }
 
 void PathTable::removeHead(std::uint32_t robot, const Path& path, std::uint32_t from) {
   for (std::uint32_t begin = 0; begin <= from; ++begin) {
+    if (begin >= path.size()) break;
     if (begin > 0 && path[begin] == path[begin - 1]) continue;
     stays_[path[begin]].erase(find(robot, path[begin], begin));
     timelines_[path[begin]].clear();

@@ -20,8 +20,8 @@ class PathTable {
   void insert(std::uint32_t robot, const Path& path);
   /// @pre `path` is what was inserted for the robot.
   void remove(std::uint32_t robot, const Path& path);
-  /// Removes where the robot is after step `from`: its visit that begins then lasts for this step
-  /// only, and leads nowhere. @pre `path` is what was inserted, and a visit begins at `from`.
+  /// Removes where the robot is after step `from`: its visit of then ends with this step, and leads
+  /// nowhere. @pre `path` is what was inserted.
   void removeTail(std::uint32_t robot, const Path& path, std::uint32_t from);
   /// Undoes removeTail(), with a path that is the same up to `from` and leads on from there.
   void insertTail(std::uint32_t robot, const Path& path, std::uint32_t from);

@@ -18,11 +18,12 @@ namespace {
 constexpr std::uint32_t kMostThreads = 8;
 
 std::vector<std::uint32_t> mostDelayedFirst(const Instance& instance,
-                                            const std::vector<Path>& paths) {
+                                            const std::vector<Path>& paths,
+                                            const Departures& departures) {
   std::vector<std::size_t> delay(paths.size());
   std::vector<std::uint32_t> delayed;
   for (std::uint32_t i = 0; i < paths.size(); ++i) {
-    delay[i] = paths[i].size() - 1 - instance.shortestLength(i);
+    delay[i] = paths[i].size() - 1 - departures.soonestArrival(instance, i);
     if (delay[i] > 0) delayed.push_back(i);
   }
   std::stable_sort(delayed.begin(), delayed.end(),
@@ -47,7 +48,8 @@ class BatchReplanning {
   Plan run() {
     for (std::uint64_t pass = 0; pass < effort_.passes; ++pass) {
       gained_ = 0;
-      const std::vector<std::uint32_t> delayed = mostDelayedFirst(instance_, plan_.paths);
+      const std::vector<std::uint32_t> delayed =
+          mostDelayedFirst(instance_, plan_.paths, effort_.departures);
       queue_.assign(delayed.begin(), delayed.end());
       while (!queue_.empty()) {
         if (spent_ || deadline_.expired()) return std::move(plan_);
@@ -95,10 +97,17 @@ class BatchReplanning {
                     query.start = instance_.start(robot);
                     query.distances = &instance_.distances(robot);
                     query.placed = &table;
+                    query.departure = effort_.departures(robot);
                     query.latest_arrival = static_cast<std::uint32_t>(path.size() - 2);
                     answers_[i] = searches_[member].value.search(query, deadline_);
+                    cutBehindArrival(answers_[i].path);
                     table.insert(robot, path);
                   });
+  }
+
+  /// A robot that is at home need not arrive there when it departs.
+  static void cutBehindArrival(Path& path) {
+    while (path.size() > 1 && path[path.size() - 2] == path.back()) path.pop_back();
   }
 
   /// @return whether the robot's turn is over: it has the path, or there is none.
@@ -150,7 +159,8 @@ class BatchReplanning {
 Plan replanSingly(const Instance& instance, Plan plan, const ReplanEffort& effort,
                   const Deadline& deadline) {
   trimToArrival(plan);
-  if (effort.passes == 0 || mostDelayedFirst(instance, plan.paths).empty()) return plan;
+  if (effort.passes == 0 || mostDelayedFirst(instance, plan.paths, effort.departures).empty())
+    return plan;
   return BatchReplanning(instance, std::move(plan), effort, deadline).run();
 }
 

@@ -23,12 +23,13 @@ void ReservationTable::remove(std::uint32_t robot, const Path& path) {
 }
 
 void ReservationTable::removeTail(std::uint32_t robot, const Path& path, std::uint32_t from) {
+  coverSteps(from + std::size_t{2});
   paths_.removeTail(robot, path, from);
   flip(path, from + 1);
 }
 
 void ReservationTable::insertTail(std::uint32_t robot, const Path& path, std::uint32_t from) {
-  coverSteps(path.size());
+  coverSteps(std::max<std::size_t>(path.size(), from + std::size_t{2}));
   paths_.insertTail(robot, path, from);
   flip(path, from + 1);
 }
@@ -73,13 +74,13 @@ std::uint32_t ReservationTable::freeSince(Vertex v, std::uint32_t t) const {
 /// Steps from .. to-1. A robot is alone where it is, so its bits are all unset or all set.
 void ReservationTable::flipSteps(const Path& path, std::uint32_t from, std::uint32_t to) {
   for (std::uint32_t t = from; t < to; ++t) {
-    bits_[std::size_t{path[t]} * words_ + t / 64] ^= std::uint64_t{1} << (t % 64);
+    bits_[std::size_t{positionAt(path, t)} * words_ + t / 64] ^= std::uint64_t{1} << (t % 64);
   }
 }
 
 /// From step `from` on.
 void ReservationTable::flip(const Path& path, std::uint32_t from) {
-  const auto size = static_cast<std::uint32_t>(path.size());
+  const std::uint32_t size = std::max(static_cast<std::uint32_t>(path.size()), from);
   flipSteps(path, from, size);
   // At its goal for good.
   std::uint64_t* const row = bits_.data() + std::size_t{path.back()} * words_;

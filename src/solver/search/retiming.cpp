@@ -5,9 +5,9 @@
 
 namespace split_mapf {
 
-Path soonestAlong(const ReservationTable& placed, const Path& path) {
+Path soonestAlong(const ReservationTable& placed, const Path& path, std::uint32_t departure) {
   Path soonest = path;
-  std::uint32_t begin = 0;  // of the visit before
+  std::uint32_t begin = departure;  // of the visit before
   for (std::uint32_t t = 1; t < path.size(); ++t) {
     if (path[t] == path[t - 1]) continue;
     const std::uint32_t since = placed.freeSince(path[t], t);

@@ -12,8 +12,9 @@ namespace split_mapf {
 
 /// The same route, each vertex as soon as the other robots let it: where this path waits, somebody
 /// keeps the robot from going on. Arrives no later. @pre nobody is in the path's way; the robot
-/// itself may be in the table. Cost: O(steps).
-Path soonestAlong(const ReservationTable& placed, const Path& path);
+/// itself may be in the table. @param departure  it stays at its start until this step, as it does.
+/// Cost: O(steps).
+Path soonestAlong(const ReservationTable& placed, const Path& path, std::uint32_t departure = 0);
 
 /// Moves a path's waits to where the fewest other robots ever come by. The first path that a search
 /// finds waits right before what keeps it, that is in a crowd, which grows by it; most could as
