@@ -12,6 +12,7 @@
 #include "pipeline/stage_words.h"
 #include "pipeline/unsolved_text.h"
 #include "solver/search/replan_singly.h"
+#include "solver/search/straighten.h"
 #include "split_mapf/core/compaction.h"
 #include "split_mapf/core/validate.h"
 #include "split_mapf/core/wording.h"
@@ -67,6 +68,7 @@ PlanRun::PlanRun(const Instance& instance, CheckedRequest request, const SolverR
 PlanReport PlanRun::run() {
   try {
     runStages();
+    if (report_.plan && request_.asked.straighten) takeTurnsOut();
   } catch (const Interrupted&) {
     if (!report_.plan) interrupt();
   } catch (const std::bad_alloc&) {
@@ -97,6 +99,18 @@ void PlanRun::runStages() {
   accept(std::move(*plan));
   searchOptimum();
   if (request_.asked.refine_sec > 0) refineWithin(request_.asked.refine_sec);
+}
+
+void PlanRun::takeTurnsOut() {
+  if (stepTablesAreTooLarge()) {
+    report_.message += "; not straightened: a table of steps would take " +
+                       std::to_string(stepTableMebibytes()) + " MiB";
+    return;
+  }
+  log_.enterStage("straighten");
+  Plan plan = *report_.plan;
+  trimToArrival(plan);
+  accept(straighten(instance_, std::move(plan), report_.threads, deadline_));
 }
 
 void PlanRun::refineWithin(double seconds) {

@@ -57,6 +57,7 @@ class PlanRun {
   /// A small knot that `auto` solved is worth a short search for the optimum, or its proof.
   void searchOptimum();
   void refineWithin(double seconds);
+  void takeTurnsOut();
   /// What a table of a bit a cell and step takes, of which most searches keep two or more [MiB].
   /// @pre the lower bounds are set.
   std::uint64_t stepTableMebibytes() const;

@@ -47,6 +47,7 @@ void declarePlanOptions(CommandLine& line) {
   line.offer("refine", "SECONDS",
              "share of the time limit that may go into improving a found plan (" +
                  textOf(defaults.refine_sec) + ")");
+  line.offerFlag("straighten", "of equally early paths take those with the fewest turns");
   line.offer("output", "FILE", "write the result as JSON; - for standard output");
   line.offerFlag("write-better",
                  "write the --output file with each better plan, while --refine goes on");
@@ -72,6 +73,7 @@ PlanOptions readPlanOptions(const CommandLine& line) {
   request.split_options = line.texts("split-option");
   request.time_limit_sec = line.number("time-limit", request.time_limit_sec, 0);
   request.refine_sec = line.number("refine", request.refine_sec, 0);
+  request.straighten = line.has("straighten");
   request.seed = line.wholeNumber("seed", request.seed, 0, kAny);
   const std::uint32_t processors = std::max(1U, std::thread::hardware_concurrency());
   request.threads =

@@ -26,6 +26,8 @@ struct PlanRequest {
   double suboptimality = 1.5;
   double time_limit_sec = 60;
   double refine_sec = 0;
+  /// Whether robots take, of their paths that arrive when they do, those with the fewest turns.
+  bool straighten = false;
   std::uint64_t seed = 0;
   std::uint32_t threads = 0;  ///< 0: as many as the executor has
 };
