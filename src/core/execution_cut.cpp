@@ -38,6 +38,33 @@ Cut cutBefore(const ExecutionGraph& graph, const Forecast& forecast, std::uint32
   return cut;
 }
 
+Cut withoutRings(const ExecutionGraph& graph, Cut cut) {
+  const Precedence& order = graph.precedence();
+  const auto hasBegun = [&](VisitId event) {
+    const std::uint32_t robot = order[event].robot;
+    return graph.at(robot) >= event || (graph.at(robot) + 1 == event && graph.progress(robot) > 0);
+  };
+  for (const Ring& ring : graph.rings()) {
+    if (hasBegun(ring.front())) continue;
+    for (const VisitId event : ring) {
+      VisitId& last = cut[order[event].robot];
+      last = std::min(last, event - 1);
+    }
+  }
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::uint32_t robot = 0; robot < order.robots(); ++robot) {
+      for (VisitId event = graph.at(robot) + 1; event <= cut[robot]; ++event) {
+        const VisitId awaited = order.awaits(event);
+        if (awaited == kNoVisit || awaited <= cut[order[awaited].robot]) continue;
+        cut[robot] = event - 1;
+        changed = true;
+      }
+    }
+  }
+  return cut;
+}
+
 Precedence restBehind(const ExecutionGraph& graph, const Cut& cut) {
   const Precedence& order = graph.precedence();
   std::vector<Visit> visits;

@@ -2,27 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 
 namespace split_mapf {
-namespace {
-
-/// Quarter turns between two moves of one cell each.
-std::uint8_t turnsBetween(Cell a, Cell b, Cell c) {
+std::uint8_t quarterTurns(const Grid& grid, Vertex from, Vertex at, Vertex to) {
+  const Cell a = grid.cellOf(from);
+  const Cell b = grid.cellOf(at);
+  const Cell c = grid.cellOf(to);
   const std::int32_t ahead = (b.x - a.x) * (c.x - b.x) + (b.y - a.y) * (c.y - b.y);
   return static_cast<std::uint8_t>(ahead > 0 ? 0 : (ahead < 0 ? 2 : 1));
 }
 
-}  // namespace
-
-std::vector<std::uint8_t> quarterTurns(const Grid& grid, const Precedence& precedence) {
+std::vector<std::uint8_t> quarterTurns(const Grid& grid, const Precedence& precedence,
+                                       const std::vector<Vertex>& came_from) {
   std::vector<std::uint8_t> turns(precedence.size(), 0);
   for (std::uint32_t robot = 0; robot < precedence.robots(); ++robot) {
-    for (VisitId v = precedence.first(robot) + 2; v <= precedence.last(robot); ++v) {
-      turns[v] =
-          turnsBetween(grid.cellOf(precedence[v - 2].vertex), grid.cellOf(precedence[v - 1].vertex),
-                       grid.cellOf(precedence[v].vertex));
+    Vertex from = came_from.empty() ? kNoVertex : came_from[robot];
+    for (VisitId v = precedence.first(robot); v < precedence.last(robot); ++v) {
+      const Vertex at = precedence[v].vertex;
+      if (from != kNoVertex) turns[v + 1] = quarterTurns(grid, from, at, precedence[v + 1].vertex);
+      from = at;
     }
   }
   return turns;

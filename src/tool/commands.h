@@ -28,6 +28,7 @@ ExitCode runConvert(const Call& call);
 ExitCode runGenerate(const Call& call);
 ExitCode runRender(const Call& call);
 ExitCode runBench(const Call& call);
+ExitCode runSimulate(const Call& call);
 ExitCode runSolvers(const Call& call);
 
 }  // namespace split_mapf::tool

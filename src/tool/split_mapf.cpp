@@ -20,6 +20,7 @@ const std::vector<Command>& commands() {
       {"convert", "write a map and a scenario as JSON", runConvert},
       {"generate", "generate a map and a scenario", runGenerate},
       {"render", "draw a plan as a PNG picture", runRender},
+      {"simulate", "execute a plan by robots that are late", runSimulate},
       {"bench", "plan many combinations and write a CSV table", runBench},
       {"solvers", "list solvers and their options", runSolvers},
   };

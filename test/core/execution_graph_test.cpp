@@ -272,6 +272,22 @@ TEST(ExecutionCut, IsNotDownwardClosedWhereALeaderIsLeftOut) {
   EXPECT_FALSE(isDownwardClosed(graph, {0, 4}));
 }
 
+TEST(ExecutionCut, LeavesOutRingsAndWhatWaitsForThem) {
+  // Robots 0 to 3 rotate; robot 4 follows robot 0, robot 5 has a way of its own.
+  const Plan plan = {{{0, 1}, {1, 2}, {2, 3}, {3, 0, 5}, {6, 6, 0}, {7, 8}}};
+  const ExecutionGraph graph = graphOf(plan, 9, 0.5);
+  const Cut all = cutBefore(graph, forecast(graph, MotionTimes{10}), 1000);
+  for (std::uint32_t robot = 0; robot < 6; ++robot) {
+    EXPECT_EQ(all[robot], graph.precedence().last(robot));
+  }
+  const Cut cut = withoutRings(graph, all);
+  EXPECT_TRUE(isDownwardClosed(graph, cut));
+  for (std::uint32_t robot = 0; robot < 5; ++robot) {
+    EXPECT_EQ(cut[robot], graph.precedence().first(robot));
+  }
+  EXPECT_EQ(cut[5], graph.precedence().last(5));
+}
+
 /// A plan of 1,000 robots and 400 steps that all move at every step: the most events there can be.
 TEST(ExecutionGraph, AThousandRobotsAreBuiltInMilliseconds) {
   constexpr std::uint32_t kRobots = 1000;

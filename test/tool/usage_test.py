@@ -5,7 +5,7 @@ import unittest
 
 from command import CommandTest
 
-COMMANDS = ["plan", "validate", "check", "convert", "generate", "render", "solvers"]
+COMMANDS = ["plan", "validate", "check", "convert", "generate", "render", "simulate", "solvers"]
 
 
 class HelpTest(CommandTest):

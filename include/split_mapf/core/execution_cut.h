@@ -20,6 +20,11 @@ bool isDownwardClosed(const ExecutionGraph& graph, const Cut& cut);
 /// begins before what it waits for, it is downward-closed. Cost: O(events in the cut).
 Cut cutBefore(const ExecutionGraph& graph, const Forecast& forecast, std::uint32_t tick);
 
+/// The same cut without rings that have not begun, and without what waits for them: where robots
+/// do not move together, nobody is promised a part in one. Cost: O(events in the cut), for each
+/// event that waits for the one before.
+Cut withoutRings(const ExecutionGraph& graph, Cut cut);
+
 /// The order of the visits behind a cut; each robot's first one is its last in the cut.
 /// @pre the cut is downward-closed.
 Precedence restBehind(const ExecutionGraph& graph, const Cut& cut);

@@ -17,9 +17,15 @@ struct MotionTimes {
 };
 
 /// Quarter turns in place before each event, 0 to 2: between the direction in which the robot came
-/// to the visit before and the one in which it leaves; a robot's first move has none, as it is
-/// turned the right way. @pre the precedence is over the vertices of the grid. Cost: O(visits).
-std::vector<std::uint8_t> quarterTurns(const Grid& grid, const Precedence& precedence);
+/// to the visit before and the one in which it leaves.
+/// @param came_from  the vertex from which each robot came to its first visit; kNoVertex, or an
+/// empty list: it is turned the right way. @pre the precedence is over the vertices of the grid.
+/// Cost: O(visits).
+std::vector<std::uint8_t> quarterTurns(const Grid& grid, const Precedence& precedence,
+                                       const std::vector<Vertex>& came_from = {});
+
+/// Quarter turns in place at `at` of a robot that came from `from` and goes on to `to`.
+std::uint8_t quarterTurns(const Grid& grid, Vertex from, Vertex at, Vertex to);
 
 /// When events will begin and end if nobody is late any more [ticks from now]; 0 for those that
 /// are over.

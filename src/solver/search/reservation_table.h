@@ -28,8 +28,8 @@ class ReservationTable {
   void insertTail(std::uint32_t robot, const Path& path, std::uint32_t from);
   void removeHead(std::uint32_t robot, const Path& path, std::uint32_t from);
 
-  /// Closes a vertex for one step at which nobody is there, or opens it again: no path of the table,
-  /// but none that is searched for leads there. @pre t is no later than lastChange().
+  /// Closes a vertex for one step at which nobody is there, or opens it again: no path of the
+  /// table, but none that is searched for leads there. @pre t is no later than lastChange().
   void toggleStep(Vertex v, std::uint32_t t) {
     bits_[std::size_t{v} * words_ + t / 64] ^= std::uint64_t{1} << (t % 64);
   }

@@ -1,0 +1,175 @@
+#include <cstdint>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <limits>
+#include <sstream>
+#include <string>
+
+#include "split_mapf/core/error.h"
+#include "split_mapf/core/instance.h"
+#include "split_mapf/pipeline/simulation.h"
+#include "tool/command_line.h"
+#include "tool/commands.h"
+#include "tool/files.h"
+#include "tool/simulation_output.h"
+#include "tool/stop_signals.h"
+#include "tool/valid_plan.h"
+
+namespace split_mapf::tool {
+namespace {
+
+constexpr std::uint64_t kMost32 = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint64_t kMost64 = std::numeric_limits<std::uint64_t>::max();
+
+void declareOptions(CommandLine& line) {
+  const SimulationOptions defaults;
+  const DelayModel& delays = defaults.delays;
+  line.require("map", "FILE", "MovingAI .map, or map_server .yaml");
+  line.require("scen", "FILE", "MovingAI .scen");
+  line.require("plan", "FILE", "JSON with `paths`, as `plan --output` writes it");
+  line.offer(
+      "policy", "NAME",
+      "lockstep (a step begins when all have ended the one before), graph (as soon as the "
+      "order of the visits allows) or replan (likewise, the rest replanned again and again) (" +
+          toString(defaults.policy) + ")");
+  line.offer("delay-probability", "P", "of a robot that is not delayed, a step, 0 to 1 (0)");
+  line.offer("min-delay", "STEPS", "least length of a delay (1)");
+  line.offer("max-delay", "STEPS", "greatest length of a delay (the least)");
+  line.offer("delay-process", "NAME",
+             "bernoulli (each robot by itself) or poisson (a number of the team) (" +
+                 toString(delays.process) + ")");
+  line.offer("delay-distribution", "NAME",
+             "uniform or gaussian lengths (" + toString(delays.distribution) + ")");
+  line.offer("seed", "N", "all randomness (0)");
+  line.offer("turn-time", "STEPS", "of a quarter turn in place (0)");
+  line.offer(
+      "release", "FRACTION",
+      "of its move out of a cell that a robot must have done before the next may set out for "
+      "it; 0: both in the same step (0)");
+  line.offer("replan-period", "STEPS",
+             "between replans (" + std::to_string(defaults.replan_period) + ")");
+  line.offer("replan-expansions", "N",
+             "effort of a replan in expanded states (" +
+                 std::to_string(ReplanBudget::kDefaultExpansions) + " a robot, at least " +
+                 std::to_string(ReplanBudget::kLeastExpansions) + ")");
+  line.offer("rings", "NAME",
+             "with a release above 0, of robots that rotate: avoid (replanned away) or joint (they "
+             "move together) (avoid)");
+  line.offer("step-limit", "STEPS", "ends a run in which robots never arrive (1000000)");
+  line.offer("time-limit", "SECONDS", "wall time for the whole call (no limit)");
+  line.offer("export", "FORMAT",
+             "lorr: write the League of Robot Runners' result file instead of our JSON");
+  line.offer("output", "FILE", "write the result; - for standard output");
+  line.offerFlag("quiet", "print nothing but errors");
+}
+
+bool readAvoidRings(const CommandLine& line) {
+  const std::string rings = line.text("rings", "avoid");
+  if (rings == "avoid" || rings == "joint") return rings == "avoid";
+  throw OptionError("option --rings: '" + rings + "' is unknown; avoid or joint is expected");
+}
+
+SimulationOptions readOptions(const CommandLine& line) {
+  SimulationOptions options;
+  if (line.has("policy")) options.policy = parseExecutionPolicy(line.text("policy"));
+  DelayModel& delays = options.delays;
+  delays.probability = line.number("delay-probability", 0, 0);
+  delays.min_delay = static_cast<std::uint32_t>(line.wholeNumber("min-delay", 1, 1, kMost32 / 2));
+  delays.max_delay =
+      static_cast<std::uint32_t>(line.wholeNumber("max-delay", delays.min_delay, 1, kMost32 / 2));
+  if (line.has("delay-process")) delays.process = parseDelayProcess(line.text("delay-process"));
+  if (line.has("delay-distribution")) {
+    delays.distribution = parseDelayDistribution(line.text("delay-distribution"));
+  }
+  delays.seed = line.wholeNumber("seed", 0, 0, kMost64);
+  options.budget.seed = delays.seed;
+  options.budget.expansions = line.wholeNumber("replan-expansions", 0, 1, kMost64);
+  options.turn_time = line.number("turn-time", 0, 0);
+  options.release = line.number("release", 0, 0);
+  options.replan_period = static_cast<std::uint32_t>(
+      line.wholeNumber("replan-period", options.replan_period, 1, kMost32));
+  options.avoid_rings = readAvoidRings(line);
+  options.step_limit =
+      static_cast<std::uint32_t>(line.wholeNumber("step-limit", options.step_limit, 1, 10000000));
+  requireValid(options);
+  return options;
+}
+
+std::string readFormat(const CommandLine& line) {
+  const std::string format = line.text("export", "");
+  if (!format.empty() && format != "lorr") {
+    throw OptionError("option --export: format '" + format + "' is unknown; lorr is expected");
+  }
+  if (!format.empty() && !line.has("output")) {
+    throw OptionError("option --export needs --output FILE: there is nowhere to write to");
+  }
+  return format;
+}
+
+void write(const std::string& file, const std::string& text) {
+  if (file == "-") {
+    std::cout << text;
+    return;
+  }
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw InputError(file + ": cannot be written in full");
+}
+
+void printSummary(const SimulationOptions& options, const SimulationReport& report) {
+  const auto planned = static_cast<double>(report.planned_sum_of_costs);
+  std::cout << std::fixed << std::setprecision(3) << toString(options.policy) << ": sum of costs "
+            << report.planned_sum_of_costs << " planned, " << report.executed_sum_of_costs
+            << " executed";
+  if (planned > 0) std::cout << " (" << report.executed_sum_of_costs / planned << " times)";
+  std::cout << ", makespan " << report.planned_makespan << " planned, " << report.executed_makespan
+            << " executed; " << 100 * report.delayed_share << " % of the time delayed\n";
+  if (options.policy == ExecutionPolicy::kReplan) {
+    std::cout << report.replans << " replans, " << report.replans_taken << " taken, "
+              << std::setprecision(1) << report.replan_cpu_ms_mean << " ms of CPU each, "
+              << report.replan_cpu_ms_max << " at most\n";
+  }
+  if (options.release > 0 && report.rings > 0) {
+    std::cout << report.rings << " rings of robots moved together\n";
+  }
+}
+
+}  // namespace
+
+ExitCode runSimulate(const Call& call) {
+  CommandLine line(
+      "simulate",
+      "Executes a plan in simulated time by robots that are late, and tells what it\n"
+      "costs. What was executed is checked by the validator. Exit code: 0 all arrived,\n"
+      "6 some did not, 3 time limit, 4 stopped by a signal.");
+  declareOptions(line);
+  if (!line.parse(call.arguments)) return ExitCode::kOk;
+  const SimulationOptions options = readOptions(line);
+  const std::string format = readFormat(line);
+  const std::string file = line.text("output", "");
+  if (!file.empty() && file != "-") requireWritable(file);
+  const double limit_sec = line.number("time-limit", std::numeric_limits<double>::infinity(), 0);
+  const Deadline deadline(limit_sec, catchStopSignals());
+  const ValidPlan task = readValidPlan(line.text("map"), line.text("scen"), line.text("plan"));
+  const SimulationReport report = simulate(task.instance, task.plan, options, deadline);
+  if (!file.empty()) {
+    std::ostringstream text;
+    if (format == "lorr") {
+      writeLeagueJson(text, task.instance, report);
+    } else {
+      writeSimulationJson(text, task.instance, options, report);
+    }
+    write(file, text.str());
+  }
+  if (!line.has("quiet") && file != "-") printSummary(options, report);
+  if (report.unfinished.empty()) return ExitCode::kOk;
+  std::cerr << "split_mapf: " << report.unfinished.size() << " of " << task.instance.robots()
+            << " robots did not arrive, the first of them robot " << report.unfinished.front()
+            << "\n";
+  if (deadline.stopRequested()) return ExitCode::kCancelled;
+  return deadline.timeIsUp() ? ExitCode::kTimeout : ExitCode::kNoPlanFound;
+}
+
+}  // namespace split_mapf::tool

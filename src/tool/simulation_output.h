@@ -1,0 +1,19 @@
+#pragma once
+
+#include <iosfwd>
+
+#include "split_mapf/core/instance.h"
+#include "split_mapf/pipeline/simulation.h"
+
+namespace split_mapf::tool {
+
+/// Writes what came of an execution as one JSON object, with the keys of the public interface.
+void writeSimulationJson(std::ostream& out, const Instance& instance,
+                         const SimulationOptions& options, const SimulationReport& report);
+
+/// The same as the result file of the League of Robot Runners 3.1, which its viewer PlanViz reads:
+/// rows before columns, a letter a step (U, D, L, R, W), delays as [first step, first step after].
+/// Each robot has one task, its goal.
+void writeLeagueJson(std::ostream& out, const Instance& instance, const SimulationReport& report);
+
+}  // namespace split_mapf::tool

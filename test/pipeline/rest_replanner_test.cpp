@@ -1,0 +1,130 @@
+#include "split_mapf/pipeline/rest_replanner.h"
+
+#include <gtest/gtest.h>
+
+#include "pipeline/standing_times.h"
+#include "solver/search/departures.h"
+#include "solver/search/neighbourhood_search.h"
+#include "solver/search/replan_singly.h"
+#include "split_mapf/core/validate.h"
+#include "support/ascii_grid.h"
+#include "support/random_plan.h"
+
+namespace split_mapf {
+namespace {
+
+TEST(StandingTimes, ExpectWhatWasLeftOfDelaysThatLastedLonger) {
+  StandingTimes times(3);
+  EXPECT_EQ(times.expected(0), 0U);
+  times.observe(0, true);
+  times.observe(0, true);
+  EXPECT_EQ(times.expected(0), 2U) << "none seen yet: as long again";
+  for (int t = 0; t < 8; ++t) times.observe(0, true);
+  times.observe(0, false);  // ten steps
+  EXPECT_EQ(times.expected(0), 0U);
+  times.observe(1, true);
+  EXPECT_EQ(times.expected(1), 10U);
+  times.observe(1, true);
+  times.observe(1, true);
+  EXPECT_EQ(times.expected(1), 8U);
+  for (int t = 0; t < 20; ++t) times.observe(1, true);
+  EXPECT_EQ(times.expected(1), 1U) << "longer than any seen";
+}
+
+/// Whoever has to stand stands, whatever is searched for, and the plan gets no worse.
+TEST(Departures, AreKeptByEverySearch) {
+  std::uint64_t gained = 0;
+  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    RandomEngine engine(seed);
+    const auto grid = test::gridFromAscii({"......", ".#..#.", "......", "..#...", "......"});
+    const Plan walk = test::randomValidPlan(*grid, 10, 15, engine);
+    const Instance instance = test::instanceOf(grid, walk);
+    std::vector<std::uint32_t> steps(10, 0);
+    for (std::uint32_t& step : steps) {
+      if (drawBelow(engine, 3) == 0) step = static_cast<std::uint32_t>(drawBelow(engine, 12));
+    }
+    const Precedence order(walk, grid->size());
+    Plan plan = planOf(order, earliestSteps(order, steps));
+    trimToArrival(plan);
+    const Departures departures(steps);
+    const auto expectKept = [&](const Plan& after, const char* who) {
+      SCOPED_TRACE(who);
+      ASSERT_TRUE(validate(instance, after).empty());
+      for (std::uint32_t i = 0; i < 10; ++i) {
+        for (std::uint32_t t = 0; t <= steps[i]; ++t) {
+          ASSERT_EQ(positionAt(after.paths[i], t), instance.start(i)) << "robot " << i;
+        }
+      }
+      ASSERT_LE(sumOfCostsOf(after), sumOfCostsOf(plan));
+    };
+    ReplanEffort effort;
+    effort.passes = 3;
+    effort.departures = departures;
+    expectKept(replanSingly(instance, plan, effort, {}), "replanSingly");
+    NeighbourhoodSearch search(instance, plan, kForever - 1, seed, departures);
+    for (int i = 0; i < 150; ++i) {
+      search.tryOne({}, [](const std::vector<PathChange>&) { return true; });
+    }
+    expectKept(search.plan(), "NeighbourhoodSearch");
+    gained += sumOfCostsOf(plan) - sumOfCostsOf(search.plan());
+  }
+  EXPECT_GT(gained, 1000U);
+}
+
+/// Replans at random moments of an execution: what is promised stays, what comes is cheaper by its
+/// own forecast, robots are where they were, and all arrive.
+TEST(RestReplanner, KeepsWhatIsPromisedAndIsCheaper) {
+  std::size_t taken = 0;
+  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    RandomEngine engine(seed);
+    const auto grid = test::gridFromAscii({"......", ".#..#.", "......", "..#..."});
+    const Plan plan = test::randomValidPlan(*grid, 9, 15, engine);
+    const Instance instance = test::instanceOf(grid, plan);
+    ExecutionGraph graph(Precedence(plan, grid->size()), seed % 2 == 0 ? 0 : 0.5);
+    const MotionTimes times{10, seed % 3 == 0 ? 5U : 0U, 0};
+    for (int i = 0; i < 15; ++i) {
+      const auto robot = static_cast<std::uint32_t>(drawBelow(engine, 9));
+      if (graph.isDone(robot) || graph.ringOf(graph.at(robot) + 1) != nullptr) continue;
+      graph.report(robot, graph.at(robot) + 1, drawBelow(engine, 2) == 0 ? 0.6 : 1);
+    }
+    ReplanQuestion question;
+    question.graph = &graph;
+    question.stands.assign(9, 0);
+    question.stands[drawBelow(engine, 9)] = 70;
+    question.came_from.assign(9, kNoVertex);
+    question.commit = 10;
+    question.avoid_rings = seed % 4 == 1;
+    RestReplanner replanner(instance, times, {3000, seed});
+    const ReplanAnswer answer = replanner.replan(question);
+    if (!answer.execution) continue;
+    ++taken;
+    const Precedence& order = answer.execution->precedence();
+    for (std::uint32_t robot = 0; robot < 9; ++robot) {
+      EXPECT_EQ(order[order.first(robot)].vertex, graph.precedence()[graph.at(robot)].vertex);
+      EXPECT_FLOAT_EQ(answer.execution->progress(robot), graph.progress(robot));
+      EXPECT_EQ(order[order.last(robot)].vertex, instance.goal(robot));
+      if (graph.progress(robot) <= 0) continue;
+      EXPECT_EQ(order[order.first(robot) + 1].vertex,
+                graph.precedence()[graph.at(robot) + 1].vertex);
+    }
+    if (!question.avoid_rings) {
+      EXPECT_LT(answer.cost_after, answer.cost_before);
+    }
+    EXPECT_EQ(answer.cost_after,
+              sumOfArrivals(order,
+                            forecast(*answer.execution, times,
+                                     times.turn > 0 ? quarterTurns(*grid, order, question.came_from)
+                                                    : std::vector<std::uint8_t>{},
+                                     question.stands)));
+    // The same question has the same answer.
+    const ReplanAnswer again = RestReplanner(instance, times, {3000, seed}).replan(question);
+    ASSERT_TRUE(again.execution);
+    EXPECT_EQ(again.cost_after, answer.cost_after);
+  }
+  EXPECT_GT(taken, 50U);
+}
+
+}  // namespace
+}  // namespace split_mapf
