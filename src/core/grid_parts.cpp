@@ -25,6 +25,31 @@ void findRuns(const CellNumbering& cells, std::size_t row, std::uint32_t width,
 }  // namespace
 
 GridParts::GridParts(const Grid& grid, const Deadline& deadline) : vertices_(grid.size()) {
+  if (grid.hasUnitMoves()) {
+    joinRuns(grid, deadline);
+  } else {
+    joinEdges(grid.graph());
+  }
+  SparsePoll poll(deadline);
+  // The lowest run of a part stands for it, so that each step up is settled already.
+  for (std::uint32_t& run : part_) {
+    poll();
+    run = part_[run];
+  }
+}
+
+/// On a planning graph every vertex is a run of its own.
+void GridParts::joinEdges(const Graph& graph) {
+  for (Vertex v = 0; v < graph.size(); ++v) {
+    first_.push_back(v);
+    part_.push_back(v);
+    for (const Vertex u : graph.neighbours(v)) {
+      if (u < v) join(u, v);
+    }
+  }
+}
+
+void GridParts::joinRuns(const Grid& grid, const Deadline& deadline) {
   std::vector<Run> above;
   std::vector<Run> here;
   Vertex next = 0;
@@ -44,12 +69,6 @@ GridParts::GridParts(const Grid& grid, const Deadline& deadline) : vertices_(gri
       }
     }
     std::swap(above, here);
-  }
-  SparsePoll poll(deadline);
-  // The lowest run of a part stands for it, so that each step up is settled already.
-  for (std::uint32_t& run : part_) {
-    poll();
-    run = part_[run];
   }
 }
 

@@ -21,7 +21,8 @@ struct DistanceTable::GuidedSearch {
   explicit GuidedSearch(DistanceGuide of)
       : guide(std::move(of)),
         known(guide.known ? guide.known->narrowEntries() : nullptr),
-        at(guide.grid->cellOf(guide.from)) {}
+        at(guide.grid->cellOf(guide.from)),
+        longest_move(guide.grid->longestMove()) {}
 
   std::uint32_t byKnown(Vertex v) const {
     if (known == nullptr) return 0;
@@ -29,7 +30,9 @@ struct DistanceTable::GuidedSearch {
   }
   std::uint32_t byCells(Vertex v) const {
     const Cell cell = guide.grid->cellOf(v);
-    return static_cast<std::uint32_t>(std::abs(cell.x - at.x) + std::abs(cell.y - at.y));
+    const auto apart =
+        static_cast<std::uint32_t>(std::abs(cell.x - at.x) + std::abs(cell.y - at.y));
+    return longest_move == 1 ? apart : apart / longest_move;
   }
   /// A lower bound of the steps from `from`.
   std::uint32_t bound(Vertex v) const { return std::max(byKnown(v), byCells(v)); }
@@ -37,6 +40,7 @@ struct DistanceTable::GuidedSearch {
   DistanceGuide guide;
   const std::uint16_t* known;
   Cell at;
+  std::uint32_t longest_move;                 // [cells]
   std::uint32_t length = 0;                   // of the ways on which vertices are expanded
   std::vector<Vertex> open;                   // known, on ways of that length, not expanded
   std::array<std::vector<Vertex>, 2> longer;  // met on ways that are one and two steps longer

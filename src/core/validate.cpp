@@ -1,7 +1,6 @@
 #include "split_mapf/core/validate.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <utility>
 
 #include "split_mapf/core/wording.h"
@@ -37,9 +36,7 @@ class VertexPaths {
     const Vertex from = vertex(path, step - 1);
     const Vertex to = vertex(path, step);
     if (from == to || from == kNoVertex || to == kNoVertex) return true;
-    const Cell a = grid_.cellOf(from);
-    const Cell b = grid_.cellOf(to);
-    return std::abs(a.x - b.x) + std::abs(a.y - b.y) == 1;
+    return grid_.isStep(grid_.cellOf(from), grid_.cellOf(to));
   }
 
  private:
@@ -68,9 +65,7 @@ class ClaimedPaths {
            std::to_string(grid_.height()) + " cells";
   }
   bool follows(std::uint32_t path, std::uint32_t step) const {
-    const Cell from = paths_[path][step - 1];
-    const Cell to = paths_[path][step];
-    return std::abs(std::int64_t{from.x} - to.x) + std::abs(std::int64_t{from.y} - to.y) <= 1;
+    return grid_.isStep(paths_[path][step - 1], paths_[path][step]);
   }
 
  private:
@@ -122,7 +117,9 @@ class RobotChecks {
     if (step > 0 && !paths_.follows(robot, step)) {
       add(ViolationKind::kJump, robot, step,
           "it jumps from " + paths_.name(robot, step - 1) + " to " + paths_.name(robot, step) +
-              " in step " + std::to_string(step) + "; a move leads to one of four neighbours");
+              " in step " + std::to_string(step) +
+              (instance_.grid().hasUnitMoves() ? "; a move leads to one of four neighbours"
+                                               : "; a move leads along an edge of the graph"));
     }
     if (paths_.vertex(robot, step) == kNoVertex) {
       add(ViolationKind::kOutsideGrid, robot, step,

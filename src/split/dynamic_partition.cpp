@@ -92,7 +92,7 @@ class Buffers {
         // Half full at most, and half of it for each direction.
         if (crossed != crossings.end()) exchange.wanted = 2 * crossed->second;
         const Cell cell = grid_.cellOf(v);
-        const auto along = static_cast<std::int32_t>(size_.along);
+        const auto along = static_cast<std::int32_t>(size_.along * grid_.longestMove());
         const auto colour = static_cast<std::uint8_t>((cell.x / along + cell.y / along) % 2);
         take(v, exchange, colour);
         take(u, exchange, colour);

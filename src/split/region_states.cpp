@@ -133,7 +133,8 @@ std::uint32_t RegionStates::rate(const RegionQuestion& question, const Rater& ra
   // chequerboard come first, and wide places before narrow ones, the more the more often a draw was
   // refused.
   const Cell cell = instance_.grid().cellOf(v);
-  const double second_colour = ((cell.x + cell.y) & 1) != 0 ? 0.4 : 0;
+  const auto field = static_cast<std::int32_t>(instance_.grid().longestMove());
+  const double second_colour = ((cell.x / field + cell.y / field) & 1) != 0 ? 0.4 : 0;
   return cost +
          weighted(options_.lambda2, second_colour + narrowness(v) * (0.1 + 0.5 * question.attempt));
 }

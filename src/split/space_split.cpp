@@ -29,6 +29,11 @@ Partition makePartition(const Instance& instance, const SpaceSplitOptions& optio
                          " regions does not fit a map of " +
                          counted(instance.graph().size(), "free cell"));
   }
+  if (options.partition == PartitionKind::kRectangles && !instance.grid().hasUnitMoves()) {
+    throw SplitSpecError(
+        "split option partition=rectangles needs moves between neighbouring cells; robots that have "
+        "size move on a planning graph: take partition=dynamic");
+  }
   const bool fits =
       options.rows <= instance.grid().height() && options.columns <= instance.grid().width();
   const bool rectangles =

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/grid_parts.h"
 #include "support/ascii_grid.h"
 
 namespace split_mapf {
@@ -76,6 +78,52 @@ TEST(Grid, RefusesImpossibleShapes) {
 }
 
 TEST(Grid, MayBeBlockedEverywhere) { EXPECT_EQ(gridFromAscii({"##", "##"})->size(), 0U); }
+
+/// Five vertices on a map of 10x10 cells, in a ring but for one edge.
+Grid planningGraph() { return Grid(10, 10, {0, 4, 40, 44, 99}, {{0, 1}, {1, 3}, {3, 2}, {3, 4}}); }
+
+TEST(Grid, APlanningGraphKeepsItsCellsAndEdges) {
+  const Grid grid = planningGraph();
+  ASSERT_EQ(grid.size(), 5U);
+  EXPECT_FALSE(grid.hasUnitMoves());
+  EXPECT_EQ(grid.longestMove(), 10U);  // from (4,4) to (9,9)
+  EXPECT_EQ(grid.cellOf(3), (Cell{4, 4}));
+  EXPECT_EQ(grid.vertexAt({0, 4}), 2U);
+  EXPECT_FALSE(grid.isFree({1, 0}));
+  EXPECT_TRUE(grid.graph().adjacent(2, 3));
+  EXPECT_FALSE(grid.graph().adjacent(0, 2));
+}
+
+TEST(Grid, StepsOfAPlanningGraphLeadAlongItsEdges) {
+  const Grid grid = planningGraph();
+  EXPECT_TRUE(grid.isStep({0, 0}, {4, 0}));
+  EXPECT_TRUE(grid.isStep({0, 0}, {0, 0}));
+  EXPECT_FALSE(grid.isStep({0, 0}, {0, 4}));
+  EXPECT_FALSE(grid.isStep({0, 0}, {1, 0}));
+  const auto cells = gridFromAscii({"..", ".."});
+  EXPECT_TRUE(cells->hasUnitMoves());
+  EXPECT_EQ(cells->longestMove(), 1U);
+  EXPECT_TRUE(cells->isStep({0, 0}, {1, 0}));
+  EXPECT_FALSE(cells->isStep({0, 0}, {1, 1}));
+}
+
+TEST(Grid, PartsOfAPlanningGraphHangTogetherByItsEdges) {
+  // Cells 0 and 1 touch, but only 0 and 99 are joined.
+  const Grid grid(10, 10, {0, 1, 99}, {{0, 2}});
+  const GridParts parts(grid);
+  EXPECT_EQ(parts.partOf(0), parts.partOf(2));
+  EXPECT_NE(parts.partOf(0), parts.partOf(1));
+  EXPECT_EQ(parts.sizeOf(parts.partOf(0)), 2U);
+  EXPECT_EQ(parts.sizeOf(parts.partOf(1)), 1U);
+}
+
+TEST(Grid, RefusesAPlanningGraphWhoseCellsAreOutOfOrder) {
+  EXPECT_THROW(Grid(10, 10, {4, 0}, {}), InputError);
+  EXPECT_THROW(Grid(10, 10, {4, 4}, {}), InputError);
+  EXPECT_THROW(Grid(10, 10, {100}, {}), InputError);
+  EXPECT_THROW(Grid(0, 10, std::vector<std::uint32_t>{}, {}), InputError);
+  EXPECT_THROW(Grid(10, 10, {0, 4}, {{0, 2}}), std::out_of_range);
+}
 
 }  // namespace
 }  // namespace split_mapf

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/ascii_grid.h"
@@ -258,6 +260,22 @@ TEST(Validate, FindsASwapBehindACrowdedCell) {
   EXPECT_TRUE(has(found, ViolationKind::kSwapConflict, 1, 2)) << listOf(found);
   EXPECT_TRUE(has(found, ViolationKind::kSwapConflict, 1, 3)) << listOf(found);
   EXPECT_EQ(found.size(), 3U) << listOf(found);
+}
+
+TEST(Validate, JudgesMovesOfAPlanningGraphByItsEdges) {
+  const auto grid =
+      std::make_shared<const Grid>(10, 10, std::vector<std::uint32_t>{0, 4, 40, 44},
+                                   std::vector<std::pair<Vertex, Vertex>>{{0, 1}, {1, 3}, {2, 3}});
+  const Instance instance(grid, {{0, 0}}, {{4, 4}});
+  EXPECT_TRUE(validate(instance, std::vector<std::vector<Cell>>{{{0, 0}, {4, 0}, {4, 4}}}).empty());
+  // A neighbouring cell of the map is no neighbour, and a straight line no edge.
+  const auto violations =
+      validate(instance, std::vector<std::vector<Cell>>{{{0, 0}, {0, 4}, {4, 4}}});
+  ASSERT_EQ(violations.size(), 1U);
+  EXPECT_EQ(violations[0].kind, ViolationKind::kJump);
+  EXPECT_NE(violations[0].message.find("along an edge of the graph"), std::string::npos);
+  EXPECT_FALSE(
+      validate(instance, std::vector<std::vector<Cell>>{{{0, 0}, {1, 0}, {4, 0}, {4, 4}}}).empty());
 }
 
 }  // namespace

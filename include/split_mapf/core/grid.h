@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "split_mapf/core/cell_numbering.h"
@@ -22,7 +23,9 @@ struct Cell {
 /// "(x,y)", as every message names a cell.
 std::string toString(Cell cell);
 
-/// A 4-connected grid: its free cells, packed in row-major order, are the vertices of graph().
+/// A 4-connected grid: its free cells, packed in row-major order, are the vertices of graph(). Or a
+/// planning graph on a map: some of its cells are the vertices, and edges lead from one to another
+/// that may lie apart (roadmap/roadmap.h). Who needs the difference asks hasUnitMoves().
 /// Immutable and thread-safe; share it by `std::shared_ptr<const Grid>`.
 /// Memory: 8 bytes a cell and about 40 a vertex; 3 bits a cell where the grid is huge, as long as
 /// nobody asks for its graph.
@@ -36,17 +39,32 @@ class Grid {
   /// @throws InputError when a side is 0, exceeds 2^15, or `free` has another size; Interrupted.
   Grid(std::uint32_t width, std::uint32_t height, const std::vector<bool>& free,
        const Deadline& deadline = {});
+  /// A planning graph. isFree() then means: is a vertex.
+  /// @param cells  row-major index of each vertex, ascending.
+  /// @param edges  pairs of vertices.
+  /// @throws InputError when a side is 0 or exceeds 2^15, or the cells are out of order or off the
+  /// map; std::out_of_range for an edge without its ends.
+  Grid(std::uint32_t width, std::uint32_t height, std::vector<std::uint32_t> cells,
+       const std::vector<std::pair<Vertex, Vertex>>& edges);
 
   std::uint32_t width() const { return width_; }
   std::uint32_t height() const { return height_; }
   /// Number of free cells.
   std::uint32_t size() const { return numbering_.size(); }
-  /// Whether so many cells are free that the graph takes long to build and much memory.
-  bool isHuge() const { return size() > kHuge; }
+  /// Whether so many cells are free that the graph takes long to build and much memory. Never of a
+  /// planning graph, which has its edges from the start.
+  bool isHuge() const { return unit_moves_ && size() > kHuge; }
   /// Of a huge grid: the first call builds it, until `deadline` at most. @throws Interrupted.
   const Graph& graph(const Deadline& deadline = {}) const {
     return deferred_ ? deferredGraph(deadline) : graph_;
   }
+  /// Whether every move leads to one of four neighbouring cells, and to each that is free.
+  bool hasUnitMoves() const { return unit_moves_; }
+  /// The most rows and columns, taken together, that one move crosses: 1 with unit moves.
+  std::uint32_t longestMove() const { return longest_move_; }
+  /// Whether one step leads from cell to cell; staying counts. A cell that is no vertex leads
+  /// nowhere on a planning graph; with unit moves cells are judged by their places alone.
+  bool isStep(Cell from, Cell to) const;
 
   bool contains(Cell c) const {
     return c.x >= 0 && c.y >= 0 && c.x < static_cast<std::int32_t>(width_) &&
@@ -82,6 +100,8 @@ class Grid {
   std::vector<std::uint32_t> cells_;  // vertex -> row-major cell; empty where vertices are many
   Graph graph_;
   std::shared_ptr<Deferred> deferred_;  // of a huge grid
+  bool unit_moves_ = true;
+  std::uint32_t longest_move_ = 1;
 };
 
 }  // namespace split_mapf

@@ -10,9 +10,9 @@
 namespace split_mapf {
 
 /// The connected parts of a grid, found without its graph: runs of free cells of a row, joined with
-/// those that they touch in the row above. Immutable, hence thread-safe.
-/// Memory: 8 bytes a run, of which there is one for each two cells at most. Source: union-find
-/// (Tarjan 1975) over runs, as connected components of pictures are found.
+/// those that they touch in the row above. Of a planning graph, whose edges count: by these.
+/// Immutable, hence thread-safe. Memory: 8 bytes a run, of which there is one for each two cells at
+/// most. Source: union-find (Tarjan 1975) over runs, as connected components of pictures are found.
 class GridParts {
  public:
   /// Cost: O(cells). @throws Interrupted.
@@ -25,6 +25,8 @@ class GridParts {
   std::uint32_t sizeOf(std::uint32_t part) const;
 
  private:
+  void joinRuns(const Grid& grid, const Deadline& deadline);
+  void joinEdges(const Graph& graph);
   std::size_t runOf(Vertex v) const;
   std::uint32_t find(std::uint32_t run);
   void join(std::uint32_t a, std::uint32_t b);

@@ -32,6 +32,7 @@ double entering(const Events& events, std::int32_t line, std::int32_t low, std::
 void RectangleCuts::find(const std::vector<UsedPath>& used, std::size_t most,
                          std::vector<ConflictRow>& rows) {
   crossings_.clear();
+  if (!grid_.hasUnitMoves()) return;  // no way is then known to cross every column of a rectangle
   for (int direction = 0; direction < 4; ++direction) {
     collect(used, direction);
     search(direction);

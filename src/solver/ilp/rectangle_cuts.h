@@ -25,7 +25,8 @@ class RectangleCuts {
   RectangleCuts(const Instance& instance, const MoveSpace& space)
       : grid_(instance.grid()), space_(space) {}
 
-  /// Appends at most `most` violated cuts, the most violated first.
+  /// Appends at most `most` violated cuts, the most violated first; none on a planning graph, whose
+  /// moves skip columns and rows.
   void find(const std::vector<UsedPath>& used, std::size_t most, std::vector<ConflictRow>& rows);
 
  private:
