@@ -54,7 +54,7 @@ target_include_directories(split_mapf_test_support PUBLIC ${CMAKE_CURRENT_SOURCE
 target_link_libraries(split_mapf_test_support PUBLIC split_mapf_core)
 split_mapf_compile_options(split_mapf_test_support)
 
-foreach(folder core io solver split pipeline conformance)
+foreach(folder core roadmap io solver split pipeline conformance)
   split_mapf_add_tests(${folder})
 endforeach()
 if(TARGET io_tests)

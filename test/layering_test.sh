@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Checks who includes and links whom, as docs and headers promise:
-#   core at the ground; io, solver, split side by side above it, never seeing each other; then
-#   pipeline; then ros and tool; node on top of ros. Only ros and node know ROS, only one wrapper in
+#   core at the ground; roadmap, solver, split side by side above it, never seeing each other; io
+#   above core and roadmap; then pipeline; then ros and tool; node on top of ros. Only ros and node know ROS, only one wrapper in
 #   the ILP solver knows GLPK, public headers include no private ones, and the core library links neither.
 # The checker first has to find violations that are planted in small trees of its own.
 #
@@ -11,13 +11,14 @@ set -euo pipefail
 # Layers that a layer may include.
 declare -rA allowed=(
   [core]="core"
-  [io]="core io"
+  [roadmap]="core roadmap"
+  [io]="core roadmap io"
   [solver]="core solver"
   [split]="core split"
-  [pipeline]="core io solver split pipeline"
-  [ros]="core io solver split pipeline ros"
-  [tool]="core io solver split pipeline tool"
-  [node]="core io solver split pipeline ros node"
+  [pipeline]="core roadmap io solver split pipeline"
+  [ros]="core roadmap io solver split pipeline ros"
+  [tool]="core roadmap io solver split pipeline tool"
+  [node]="core roadmap io solver split pipeline ros node"
 )
 readonly ros_packages='actionlib|catkin|diagnostic_updater|dynamic_reconfigure|interactive_markers|message_filters|nodelet|pluginlib|ros|rosbag|roscpp|rosconsole|rviz|tf|tf2|tf2_ros|tf2_[a-z_]*|[a-z_]*_msgs'
 
@@ -158,6 +159,9 @@ test_the_checker() {
   require_found src/solver/ilp/glpk_model.cpp '#include "split_mapf/split/room.h"'
   require_found src/split/room.cpp '#include "split_mapf/solver/room.h"'
   require_found src/io/room.cpp '#include "split_mapf/split/room.h"'
+  require_found src/roadmap/room.cpp '#include "split_mapf/io/room.h"'
+  require_found src/solver/room.cpp '#include "split_mapf/roadmap/room.h"'
+  require_found src/core/room.cpp '#include "split_mapf/roadmap/room.h"'
   require_found include/split_mapf/io/room.h '#include "split_mapf/pipeline/room.h"'
   require_found src/pipeline/room.cpp '#include "split_mapf/ros/room.h"'
   require_found src/tool/room.cpp '#include "split_mapf/ros/room.h"'
