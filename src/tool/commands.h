@@ -27,6 +27,7 @@ ExitCode runCheck(const Call& call);
 ExitCode runConvert(const Call& call);
 ExitCode runGenerate(const Call& call);
 ExitCode runRender(const Call& call);
+ExitCode runRoadmap(const Call& call);
 ExitCode runBench(const Call& call);
 ExitCode runSimulate(const Call& call);
 ExitCode runSolvers(const Call& call);

@@ -5,7 +5,8 @@ import unittest
 
 from command import CommandTest
 
-COMMANDS = ["plan", "validate", "check", "convert", "generate", "render", "simulate", "solvers"]
+COMMANDS = ["plan", "validate", "check", "convert", "generate", "render", "roadmap", "simulate",
+            "solvers"]
 
 
 class HelpTest(CommandTest):

@@ -1,0 +1,86 @@
+#include "split_mapf/io/roadmap_picture.h"
+
+#include <algorithm>
+#include <string>
+
+#include "io/canvas.h"
+#include "split_mapf/core/error.h"
+
+namespace split_mapf {
+namespace {
+
+constexpr Colour kObstacleColour{58, 64, 79};
+constexpr Colour kTooNearColour{226, 225, 221};
+constexpr Colour kUnreachedColour{240, 150, 135};
+constexpr Colour kReachedColour{251, 250, 247};
+constexpr Colour kEdgeColour{92, 142, 205};
+constexpr Colour kVertexColour{28, 84, 160};
+constexpr Colour kRobotColour{232, 146, 38};
+constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 27U;
+constexpr std::uint32_t kMostCellPx = 256;
+
+Colour colourOf(CellReach cell) {
+  switch (cell) {
+    case CellReach::kBlocked:
+      return kObstacleColour;
+    case CellReach::kTooNear:
+      return kTooNearColour;
+    case CellReach::kUnreached:
+      return kUnreachedColour;
+    case CellReach::kReached:
+      break;
+  }
+  return kReachedColour;
+}
+
+std::uint32_t cellSizeFor(const Roadmap& roadmap, std::uint32_t cell_px) {
+  if (cell_px > kMostCellPx) {
+    throw OptionError("a cell of " + std::to_string(cell_px) + " pixels, expected 1 to 256");
+  }
+  if (cell_px == 0) {
+    cell_px = std::clamp(1500 / std::max(roadmap.width, roadmap.height), 1U, 16U);
+  }
+  if (std::uint64_t{roadmap.width} * cell_px * roadmap.height * cell_px > kMostPixels) {
+    throw InputError("a picture of a map of " + std::to_string(roadmap.width) + "x" +
+                     std::to_string(roadmap.height) + " cells with " + std::to_string(cell_px) +
+                     " pixels a cell is too large, expected at most " +
+                     std::to_string(kMostPixels) + " pixels");
+  }
+  return cell_px;
+}
+
+}  // namespace
+
+Picture drawRoadmap(const Roadmap& roadmap, const Reach& reach, std::uint32_t cell_px) {
+  const std::size_t cells = std::size_t{roadmap.width} * roadmap.height;
+  if (reach.cells.size() != cells) {
+    throw InputError("the reach of " + std::to_string(reach.cells.size()) +
+                     " cells is not of the graph's map of " + std::to_string(cells));
+  }
+  const std::uint32_t px = cellSizeFor(roadmap, cell_px);
+  Canvas canvas(roadmap.width * px, roadmap.height * px, kObstacleColour);
+  for (std::size_t i = 0; i < cells; ++i) {
+    canvas.fillRectangle(static_cast<std::uint32_t>(i % roadmap.width) * px,
+                         static_cast<std::uint32_t>(i / roadmap.width) * px, px, px,
+                         colourOf(reach.cells[i]));
+  }
+  const auto pointOf = [&](Vertex v) {
+    const std::uint32_t cell = roadmap.cells[v];
+    return Point{(cell % roadmap.width + 0.5) * px, (cell / roadmap.width + 0.5) * px};
+  };
+  const double spacing_px = static_cast<double>(roadmap.spacing_cells) * px;
+  const double width = std::max(1.0, spacing_px / 16);
+  for (const auto& [a, b] : roadmap.edges) {
+    canvas.strokeLine({pointOf(a), pointOf(b)}, width, {kEdgeColour, 1});
+  }
+  if (!roadmap.cells.empty()) {
+    const double radius_px = roadmap.robot_radius_m / roadmap.resolution_m * px;
+    canvas.fillDisc(pointOf(0), radius_px, {kRobotColour, 0.7});
+  }
+  for (Vertex v = 0; v < roadmap.cells.size(); ++v) {
+    canvas.fillDisc(pointOf(v), 1.5 * width, {kVertexColour, 1});
+  }
+  return canvas.take();
+}
+
+}  // namespace split_mapf

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+
+#include "split_mapf/io/map_server.h"
+#include "split_mapf/io/occupancy.h"
+#include "split_mapf/roadmap/obstacle_raster.h"
+#include "split_mapf/roadmap/roadmap.h"
+#include "tool/command_line.h"
+
+namespace split_mapf::tool {
+
+/// What a command is told about robots that have size, and about the map they drive on.
+struct RobotOptions {
+  RoadmapOptions roadmap;
+  double snap_distance_m = 0;  ///< 0: one spacing of the lattice
+  std::uint32_t ignore_specks = 0;
+  OccupancyRule occupancy;
+};
+
+/// Declares --robot-radius and all that goes with it.
+void declareRobotOptions(CommandLine& line);
+/// Reads them. @throws OptionError. @pre line.parse() returned true
+RobotOptions readRobotOptions(const CommandLine& line);
+/// Whether the robots have size, or their cells are to be larger than the map's.
+bool asksForRoadmap(const RobotOptions& options);
+/// The map's obstacles as these robots see them.
+ObstacleRaster obstaclesOf(const OccupancyMap& map, const RobotOptions& options);
+/// Reads a map that has a resolution. @throws InputError for a MovingAI .map, which has none, and
+/// for whatever readMapServerMap() refuses.
+OccupancyMap readMapInMetres(const std::string& path, const RobotOptions& options);
+
+}  // namespace split_mapf::tool
