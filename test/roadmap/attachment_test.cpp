@@ -1,0 +1,182 @@
+#include "split_mapf/roadmap/attachment.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "split_mapf/core/random.h"
+#include "support/disc_checker.h"
+#include "support/drawn_rooms.h"
+
+namespace split_mapf {
+namespace {
+
+constexpr double kRadius_m = 0.3;
+constexpr double kResolution_m = 0.05;
+
+struct World {
+  ObstacleRaster raster;
+  Roadmap roadmap;
+};
+
+World worldOf(const ObstacleRaster& raster) {
+  RoadmapOptions options;
+  options.robot_radius_m = kRadius_m;
+  return {raster, *buildRoadmap(raster, options)};
+}
+
+World openWorld() { return worldOf(rasterOf(200, 200, std::vector<bool>(40000, true), 0.05)); }
+
+MapPoint placeOf(const World& world, Vertex v) {
+  const Cell cell = world.raster.cellAt(world.roadmap.cells[v]);
+  return {(cell.x + 0.5) * kResolution_m, (cell.y + 0.5) * kResolution_m};
+}
+
+/// Whether a disc fits at `p`, all squares looked at.
+bool fits(const ObstacleRaster& raster, MapPoint p, double radius) {
+  if (p.x < radius || p.y < radius || p.x > raster.width * kResolution_m - radius ||
+      p.y > raster.height * kResolution_m - radius) {
+    return false;
+  }
+  for (std::size_t i = 0; i < raster.blocked.size(); ++i) {
+    if (raster.blocked[i] == 0) continue;
+    const Cell cell = raster.cellAt(i);
+    const double dx = std::max(0.0, std::abs(p.x - (cell.x + 0.5) * kResolution_m) - 0.025);
+    const double dy = std::max(0.0, std::abs(p.y - (cell.y + 0.5) * kResolution_m) - 0.025);
+    if (dx * dx + dy * dy < radius * radius) return false;
+  }
+  return true;
+}
+
+std::vector<MapPoint> drawPoses(const ObstacleRaster& raster, std::size_t count,
+                                RandomEngine& engine) {
+  std::vector<MapPoint> poses;
+  while (poses.size() < count) {
+    const MapPoint p{static_cast<double>(drawBelow(engine, raster.width * 1000)) / 20000,
+                     static_cast<double>(drawBelow(engine, raster.height * 1000)) / 20000};
+    const bool apart = std::all_of(poses.begin(), poses.end(), [&](MapPoint q) {
+      return std::hypot(p.x - q.x, p.y - q.y) > 2 * kRadius_m + 0.02;
+    });
+    if (apart && fits(raster, p, kRadius_m + 1e-4)) poses.push_back(p);
+  }
+  return poses;
+}
+
+/// The legs as courses: away from the poses (departure), or towards them (arrival).
+std::vector<test::DiscCourse> coursesOf(const World& world, const std::vector<MapPoint>& poses,
+                                        const Legs& legs, bool arriving) {
+  std::vector<test::DiscCourse> courses(poses.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const MapPoint vertex = placeOf(world, legs.vertices[i]);
+    for (std::uint32_t step = 0; step <= legs.steps; ++step) {
+      const bool walked = step > legs.waves[i];
+      const MapPoint at = walked != arriving ? vertex : poses[i];
+      courses[i].x.push_back(at.x);
+      courses[i].y.push_back(at.y);
+    }
+  }
+  return courses;
+}
+
+TEST(Attachment, RandomPosesLeaveAndArriveWithoutMeeting) {
+  std::size_t attached = 0;
+  std::size_t robots_in_all = 0;
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    const World world = worldOf(test::drawRooms(seed, 15, 60, kResolution_m).raster);
+    RandomEngine engine(seed);
+    const std::size_t count = 20;
+    const std::vector<MapPoint> starts = drawPoses(world.raster, count, engine);
+    const std::vector<MapPoint> goals = drawPoses(world.raster, count, engine);
+    std::vector<RobotPoses> robots;
+    for (std::size_t i = 0; i < count; ++i) robots.push_back({starts[i], goals[i]});
+    robots_in_all += count;
+    Attachment attachment = attachRobots(world.raster, world.roadmap, robots);
+    // Poses that cannot be served are named, and the others can.
+    for (int tries = 0; tries < 10 && !attachment.faults.empty(); ++tries) {
+      for (std::size_t i = attachment.faults.size(); i-- > 0;) {
+        const std::uint32_t robot = attachment.faults[i].robot;
+        if (i > 0 && attachment.faults[i - 1].robot == robot) continue;
+        robots.erase(robots.begin() + robot);
+      }
+      attachment = attachRobots(world.raster, world.roadmap, robots);
+    }
+    ASSERT_TRUE(attachment.faults.empty()) << attachment.faults.front().message;
+    attached += robots.size();
+    for (const bool arriving : {false, true}) {
+      const Legs& legs = arriving ? attachment.arrival : attachment.departure;
+      std::vector<MapPoint> poses;
+      for (const RobotPoses& robot : robots) poses.push_back(arriving ? robot.goal : robot.start);
+      EXPECT_EQ(std::set<Vertex>(legs.vertices.begin(), legs.vertices.end()).size(), poses.size());
+      const auto collision =
+          findDiscCollision({world.raster.width, world.raster.height, kResolution_m,
+                             world.raster.blocked, kRadius_m, 2 * kRadius_m},
+                            coursesOf(world, poses, legs, arriving));
+      EXPECT_EQ(collision, std::nullopt) << "seed " << seed << ": " << *collision;
+    }
+  }
+  EXPECT_GE(attached, robots_in_all * 9 / 10);
+}
+
+TEST(Attachment, TwoRobotsInWhatIsOneCellOfTheLatticeGetTwoVertices) {
+  const World world = openWorld();
+  const MapPoint v = placeOf(world, 40);
+  const MapPoint a{v.x - 0.1, v.y};
+  const MapPoint b{v.x + 0.55, v.y};
+  const Attachment attachment =
+      attachRobots(world.raster, world.roadmap, {{a, placeOf(world, 0)}, {b, placeOf(world, 60)}});
+  ASSERT_TRUE(attachment.faults.empty()) << attachment.faults.front().message;
+  EXPECT_NE(attachment.departure.vertices[0], attachment.departure.vertices[1]);
+}
+
+TEST(Attachment, RobotsOnTheirVerticesNeedNoSteps) {
+  const World world = openWorld();
+  const Attachment attachment = attachRobots(
+      world.raster, world.roadmap,
+      {{placeOf(world, 3), placeOf(world, 4)}, {placeOf(world, 4), placeOf(world, 3)}});
+  ASSERT_TRUE(attachment.faults.empty());
+  EXPECT_EQ(attachment.departure.steps, 0U);
+  EXPECT_EQ(attachment.departure.vertices, (std::vector<Vertex>{3, 4}));
+  EXPECT_EQ(attachment.arrival.vertices, (std::vector<Vertex>{4, 3}));
+}
+
+TEST(Attachment, AStartHalfARadiusFromAWallStillGetsAwayAndSuchAGoalIsRefused) {
+  const World world = openWorld();
+  const MapPoint at_wall{kRadius_m / 2, 5};
+  const MapPoint free{5, 5};
+  EXPECT_TRUE(attachRobots(world.raster, world.roadmap, {{at_wall, free}}).faults.empty());
+  const Attachment refused = attachRobots(world.raster, world.roadmap, {{free, at_wall}});
+  ASSERT_EQ(refused.faults.size(), 1U);
+  EXPECT_EQ(refused.faults[0].kind, AttachmentFaultKind::kTooNearObstacle);
+  EXPECT_EQ(refused.faults[0].message,
+            "robot 0: its goal (0.15, 5) is 0.15 m from an obstacle, 0.3 m are needed");
+}
+
+TEST(Attachment, NamesEveryRobotAtFault) {
+  const World world = openWorld();
+  const Attachment attachment = attachRobots(
+      world.raster, world.roadmap,
+      {{{5, 5}, {2, 2}}, {{5.5, 5}, {3, 3}}, {{-1, 5}, {4, 4}}, {{7, 7}, {std::nan(""), 1}}});
+  ASSERT_EQ(attachment.faults.size(), 3U);
+  EXPECT_EQ(attachment.faults[0].robot, 1U);
+  EXPECT_EQ(attachment.faults[0].kind, AttachmentFaultKind::kDiscsOverlap);
+  EXPECT_NE(attachment.faults[0].message.find("0.5 m from that of robot 0, 0.6 m are needed"),
+            std::string::npos)
+      << attachment.faults[0].message;
+  EXPECT_EQ(attachment.faults[1].kind, AttachmentFaultKind::kOutsideMap);
+  EXPECT_EQ(attachment.faults[2].kind, AttachmentFaultKind::kOutsideMap);
+}
+
+TEST(Attachment, SaysWhereNoEdgesLead) {
+  // Two rooms without a door.
+  std::vector<bool> free(200 * 100, true);
+  for (std::size_t y = 0; y < 100; ++y) free[y * 200 + 100] = false;
+  const World world = worldOf(rasterOf(200, 100, free, kResolution_m));
+  const Attachment attachment = attachRobots(world.raster, world.roadmap, {{{2, 2}, {8, 2}}});
+  ASSERT_EQ(attachment.faults.size(), 1U);
+  EXPECT_EQ(attachment.faults[0].kind, AttachmentFaultKind::kOtherPiece);
+}
+
+}  // namespace
+}  // namespace split_mapf
