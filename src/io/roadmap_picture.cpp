@@ -64,21 +64,22 @@ Picture drawRoadmap(const Roadmap& roadmap, const Reach& reach, std::uint32_t ce
                          static_cast<std::uint32_t>(i / roadmap.width) * px, px, px,
                          colourOf(reach.cells[i]));
   }
-  const auto pointOf = [&](Vertex v) {
-    const std::uint32_t cell = roadmap.cells[v];
-    return Point{(cell % roadmap.width + 0.5) * px, (cell / roadmap.width + 0.5) * px};
+  const auto point_of = [&](Vertex v) {
+    const std::uint32_t column = roadmap.cells[v] % roadmap.width;
+    const std::uint32_t row = roadmap.cells[v] / roadmap.width;
+    return Point{(column + 0.5) * px, (row + 0.5) * px};
   };
   const double spacing_px = static_cast<double>(roadmap.spacing_cells) * px;
   const double width = std::max(1.0, spacing_px / 16);
   for (const auto& [a, b] : roadmap.edges) {
-    canvas.strokeLine({pointOf(a), pointOf(b)}, width, {kEdgeColour, 1});
+    canvas.strokeLine({point_of(a), point_of(b)}, width, {kEdgeColour, 1});
   }
   if (!roadmap.cells.empty()) {
     const double radius_px = roadmap.robot_radius_m / roadmap.resolution_m * px;
-    canvas.fillDisc(pointOf(0), radius_px, {kRobotColour, 0.7});
+    canvas.fillDisc(point_of(0), radius_px, {kRobotColour, 0.7});
   }
   for (Vertex v = 0; v < roadmap.cells.size(); ++v) {
-    canvas.fillDisc(pointOf(v), 1.5 * width, {kVertexColour, 1});
+    canvas.fillDisc(point_of(v), 1.5 * width, {kVertexColour, 1});
   }
   return canvas.take();
 }

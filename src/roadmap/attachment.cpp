@@ -18,7 +18,7 @@ using roadmap::LegOption;
 using roadmap::LegWaves;
 using roadmap::Place;
 
-constexpr double kTouch_m = 1e-6;
+constexpr double kTouchM = 1e-6;
 
 std::string metres(double length) {
   std::ostringstream text;
@@ -162,7 +162,7 @@ class Attacher {
         report(robot, AttachmentFaultKind::kOutsideMap, side, "lies outside the map");
         continue;
       }
-      const double touch = kTouch_m / raster_.resolution_m;
+      const double touch = kTouchM / raster_.resolution_m;
       const double room = leastDistance(raster_, pose, pose, need_);
       const bool fits = room >= need_ - touch;
       if (fits || (forgiving && room > 0)) {
@@ -195,7 +195,7 @@ class Attacher {
       for (std::uint32_t j = 0; j < i; ++j) {
         const double gap =
             std::hypot(side.poses[i].x - side.poses[j].x, side.poses[i].y - side.poses[j].y);
-        if (!(gap < apart_m_ - kTouch_m)) continue;  // or no number, which is reported already
+        if (!(gap < apart_m_ - kTouchM)) continue;  // or no number, which is reported already
         report(i, AttachmentFaultKind::kDiscsOverlap, side,
                "is " + metres(gap) + " from that of robot " + std::to_string(j) + ", " +
                    metres(apart_m_) + " are needed");
@@ -249,7 +249,7 @@ class Attacher {
       for (std::uint32_t robot = 0; robot < side.poses.size(); ++robot) {
         ways.push_back({toCells(side.poses[robot]), finder_.placeOf(legs.vertices[robot])});
         any = any || std::hypot(ways.back().to.x - ways.back().from.x,
-                                ways.back().to.y - ways.back().from.y) > kTouch_m;
+                                ways.back().to.y - ways.back().from.y) > kTouchM;
       }
       waves = roadmap::planWaves(ways, apart_m_ / raster_.resolution_m);
       if (waves.stuck.empty()) {

@@ -6,9 +6,9 @@ namespace split_mapf {
 namespace {
 
 MapPoint placeOf(const Roadmap& roadmap, Vertex v) {
-  const std::uint32_t cell = roadmap.cells[v];
-  return {(cell % roadmap.width + 0.5) * roadmap.resolution_m,
-          (cell / roadmap.width + 0.5) * roadmap.resolution_m};
+  const std::uint32_t column = roadmap.cells[v] % roadmap.width;
+  const std::uint32_t row = roadmap.cells[v] / roadmap.width;
+  return {(column + 0.5) * roadmap.resolution_m, (row + 0.5) * roadmap.resolution_m};
 }
 
 /// A robot that has arrived needs no further entries.

@@ -30,6 +30,7 @@ MainPiece::MainPiece(Draft& draft, Coverage& coverage, const Pieces& areas, std:
     if (piece.size() > known.size) known = {v, static_cast<std::uint32_t>(piece.size())};
   }
   std::vector<std::uint32_t> firsts;
+  firsts.reserve(largest.size());
   for (const auto& [area, known] : largest) firsts.push_back(known.first);
   std::sort(firsts.begin(), firsts.end());
   for (const std::uint32_t v : firsts) joinAround(v);

@@ -7,7 +7,7 @@
 namespace split_mapf {
 namespace {
 
-using proof::kTolerance_m;
+using proof::kToleranceM;
 using proof::Point;
 
 /// Where a robot is at a whole step.
@@ -28,7 +28,7 @@ std::optional<std::string> findTouch(const ObstacleRaster& raster, double need, 
     const Point from = placeAt(course, step);
     const Point to = placeAt(course, step + 1);
     const proof::Nearest nearest = proof::nearestTo(raster, from, to, need);
-    if (nearest.distance_m < keeps - kTolerance_m) {
+    if (nearest.distance_m < keeps - kToleranceM) {
       std::ostringstream text;
       text << "robot " << robot << " comes within " << nearest.distance_m << " m of "
            << (nearest.border ? "the border of the map"
@@ -36,7 +36,7 @@ std::optional<std::string> findTouch(const ObstacleRaster& raster, double need, 
            << inStep(step) << ", " << keeps << " m are needed";
       return text.str();
     }
-    if (proof::nearestTo(raster, to, to, need).distance_m >= need - kTolerance_m) keeps = need;
+    if (proof::nearestTo(raster, to, to, need).distance_m >= need - kToleranceM) keeps = need;
   }
   return std::nullopt;
 }
@@ -59,7 +59,7 @@ std::optional<std::string> findMeeting(const ObstacleRaster& raster, const Roadm
         const double distance =
             proof::leastNorm(placeAt(courses[i], step) - placeAt(courses[j], step),
                              placeAt(courses[i], step + 1) - placeAt(courses[j], step + 1));
-        if (distance >= apart - kTolerance_m) continue;
+        if (distance >= apart - kToleranceM) continue;
         std::ostringstream text;
         text << "robots " << j << " and " << i << " come within " << distance << " m"
              << inStep(step) << ", " << apart << " m are needed";

@@ -10,7 +10,7 @@
 namespace split_mapf {
 namespace {
 
-using proof::kTolerance_m;
+using proof::kToleranceM;
 using proof::leastNorm;
 using proof::Nearest;
 using proof::Point;
@@ -28,8 +28,8 @@ class Proof {
         roadmap_(roadmap),
         deadline_(deadline),
         size_(static_cast<Vertex>(roadmap.cells.size())),
-        apart_(2 * roadmap.robot_radius_m + roadmap.clearance_m - kTolerance_m),
-        free_(roadmap.robot_radius_m + roadmap.clearance_m - kTolerance_m) {}
+        apart_(2 * roadmap.robot_radius_m + roadmap.clearance_m - kToleranceM),
+        free_(roadmap.robot_radius_m + roadmap.clearance_m - kToleranceM) {}
 
   std::optional<std::string> run() {
     checkShape();
@@ -93,7 +93,7 @@ class Proof {
          << nearest.distance_m << " m of "
          << (nearest.border ? "the border of the map"
                             : "the obstacle at " + toString(nearest.obstacle))
-         << ", " << free_ + kTolerance_m << " m are needed";
+         << ", " << free_ + kToleranceM << " m are needed";
     fault_ = text.str();
   }
 
@@ -159,16 +159,16 @@ class Proof {
     std::ostringstream text;
     text << "a robot that goes " << nameOf(move.from) << "-" << nameOf(move.to)
          << " and one that goes " << nameOf(other.from) << "-" << nameOf(other.to)
-         << " come within " << distance << " m, " << apart_ + kTolerance_m << " m are needed";
+         << " come within " << distance << " m, " << apart_ + kToleranceM << " m are needed";
     fault_ = text.str();
   }
 
   // --- geometry and words ---
 
   Point placeOf(Vertex v) const {
-    const std::uint32_t cell = roadmap_.cells[v];
-    return {(cell % roadmap_.width + 0.5) * raster_.resolution_m,
-            (cell / roadmap_.width + 0.5) * raster_.resolution_m};
+    const std::uint32_t column = roadmap_.cells[v] % roadmap_.width;
+    const std::uint32_t row = roadmap_.cells[v] / roadmap_.width;
+    return {(column + 0.5) * raster_.resolution_m, (row + 0.5) * raster_.resolution_m};
   }
 
   std::string nameOf(Vertex v) const {

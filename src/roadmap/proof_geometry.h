@@ -13,7 +13,7 @@ namespace split_mapf::proof {
 using Point = std::complex<double>;
 
 /// Touching counts as apart within this.
-constexpr double kTolerance_m = 1e-6;
+constexpr double kToleranceM = 1e-6;
 
 /// The least distance from the origin of what goes straight from `p` to `q`: of two robots, where
 /// these are the differences of their places at the begin and the end of a step.

@@ -14,7 +14,7 @@ namespace {
 using roadmap::ClearSpace;
 using roadmap::Pieces;
 
-constexpr double kRoomBeyondRadius_m = 0.3;
+constexpr double kRoomBeyondRadiusM = 0.3;
 
 /// The vertices of the largest piece of the graph in each piece of the free space.
 std::vector<std::uint8_t> mainVertices(const Roadmap& roadmap, const Pieces& areas) {
@@ -86,7 +86,7 @@ std::optional<Reach> measureReach(const ObstacleRaster& raster, const Roadmap& r
                                   double snap_distance_m, const Deadline& deadline) {
   const double radius = (roadmap.robot_radius_m + roadmap.clearance_m) / raster.resolution_m;
   const ClearSpace space(raster, radius, deadline);
-  const ClearSpace wider(raster, radius + kRoomBeyondRadius_m / raster.resolution_m, deadline);
+  const ClearSpace wider(raster, radius + kRoomBeyondRadiusM / raster.resolution_m, deadline);
   if (space.isEmpty() || wider.isEmpty()) return std::nullopt;
   const Pieces areas(space, 1, deadline);
   if (areas.isEmpty()) return std::nullopt;

@@ -13,18 +13,18 @@ namespace {
 
 /// The cells of `map` as a grid, with the moves between them that the whole has.
 std::shared_ptr<const Grid> gridOf(const Grid& whole, const std::vector<Vertex>& map) {
-  const auto indexOf = [&whole](Cell cell) {
+  const auto index_of = [&whole](Cell cell) {
     return static_cast<std::size_t>(cell.y) * whole.width() + static_cast<std::size_t>(cell.x);
   };
   if (whole.hasUnitMoves()) {
     std::vector<bool> free(std::size_t{whole.width()} * whole.height(), false);
-    for (const Vertex v : map) free[indexOf(whole.cellOf(v))] = true;
+    for (const Vertex v : map) free[index_of(whole.cellOf(v))] = true;
     return std::make_shared<const Grid>(whole.width(), whole.height(), free);
   }
   std::vector<std::uint32_t> cells;
   std::vector<std::pair<Vertex, Vertex>> edges;
   for (Vertex local = 0; local < map.size(); ++local) {
-    cells.push_back(static_cast<std::uint32_t>(indexOf(whole.cellOf(map[local]))));
+    cells.push_back(static_cast<std::uint32_t>(index_of(whole.cellOf(map[local]))));
     for (const Vertex u : whole.graph().neighbours(map[local])) {
       const auto other = std::lower_bound(map.begin(), map.end(), u);
       if (u < map[local] || other == map.end() || *other != u) continue;

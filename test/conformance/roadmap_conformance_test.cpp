@@ -19,8 +19,8 @@
 namespace split_mapf {
 namespace {
 
-constexpr double kRadius_m = 0.3;
-constexpr double kResolution_m = 0.05;
+constexpr double kRadiusM = 0.3;
+constexpr double kResolutionM = 0.05;
 constexpr double kPatienceSec = 60;
 
 /// Robots at random vertices of a building's planning graph.
@@ -32,9 +32,9 @@ struct Building {
 
 Building drawBuilding(std::uint64_t seed, std::uint32_t robots) {
   Building building;
-  building.map = test::drawRooms(seed, 13, 54, kResolution_m).raster;
+  building.map = test::drawRooms(seed, 13, 54, kResolutionM).raster;
   RoadmapOptions options;
-  options.robot_radius_m = kRadius_m;
+  options.robot_radius_m = kRadiusM;
   building.grid = gridOf(*buildRoadmap(building.map, options));
   RandomEngine engine(seed);
   std::vector<Vertex> starts(building.grid->size());
@@ -55,12 +55,12 @@ void expectDiscsApart(const Building& building, const Plan& plan) {
     courses.emplace_back();
     for (const Vertex v : path) {
       const Cell cell = building.grid->cellOf(v);
-      courses.back().x.push_back((cell.x + 0.5) * kResolution_m);
-      courses.back().y.push_back((cell.y + 0.5) * kResolution_m);
+      courses.back().x.push_back((cell.x + 0.5) * kResolutionM);
+      courses.back().y.push_back((cell.y + 0.5) * kResolutionM);
     }
   }
-  const auto collision = findDiscCollision({building.map.width, building.map.height, kResolution_m,
-                                            building.map.blocked, kRadius_m, 2 * kRadius_m},
+  const auto collision = findDiscCollision({building.map.width, building.map.height, kResolutionM,
+                                            building.map.blocked, kRadiusM, 2 * kRadiusM},
                                            courses);
   EXPECT_EQ(collision, std::nullopt) << *collision;
 }

@@ -13,8 +13,8 @@
 namespace split_mapf {
 namespace {
 
-constexpr double kRadius_m = 0.3;
-constexpr double kResolution_m = 0.05;
+constexpr double kRadiusM = 0.3;
+constexpr double kResolutionM = 0.05;
 
 struct World {
   ObstacleRaster raster;
@@ -23,7 +23,7 @@ struct World {
 
 World worldOf(const ObstacleRaster& raster) {
   RoadmapOptions options;
-  options.robot_radius_m = kRadius_m;
+  options.robot_radius_m = kRadiusM;
   return {raster, *buildRoadmap(raster, options)};
 }
 
@@ -31,20 +31,20 @@ World openWorld() { return worldOf(rasterOf(200, 200, std::vector<bool>(40000, t
 
 MapPoint placeOf(const World& world, Vertex v) {
   const Cell cell = world.raster.cellAt(world.roadmap.cells[v]);
-  return {(cell.x + 0.5) * kResolution_m, (cell.y + 0.5) * kResolution_m};
+  return {(cell.x + 0.5) * kResolutionM, (cell.y + 0.5) * kResolutionM};
 }
 
 /// Whether a disc fits at `p`, all squares looked at.
 bool fits(const ObstacleRaster& raster, MapPoint p, double radius) {
-  if (p.x < radius || p.y < radius || p.x > raster.width * kResolution_m - radius ||
-      p.y > raster.height * kResolution_m - radius) {
+  if (p.x < radius || p.y < radius || p.x > raster.width * kResolutionM - radius ||
+      p.y > raster.height * kResolutionM - radius) {
     return false;
   }
   for (std::size_t i = 0; i < raster.blocked.size(); ++i) {
     if (raster.blocked[i] == 0) continue;
     const Cell cell = raster.cellAt(i);
-    const double dx = std::max(0.0, std::abs(p.x - (cell.x + 0.5) * kResolution_m) - 0.025);
-    const double dy = std::max(0.0, std::abs(p.y - (cell.y + 0.5) * kResolution_m) - 0.025);
+    const double dx = std::max(0.0, std::abs(p.x - (cell.x + 0.5) * kResolutionM) - 0.025);
+    const double dy = std::max(0.0, std::abs(p.y - (cell.y + 0.5) * kResolutionM) - 0.025);
     if (dx * dx + dy * dy < radius * radius) return false;
   }
   return true;
@@ -57,9 +57,9 @@ std::vector<MapPoint> drawPoses(const ObstacleRaster& raster, std::size_t count,
     const MapPoint p{static_cast<double>(drawBelow(engine, raster.width * 1000)) / 20000,
                      static_cast<double>(drawBelow(engine, raster.height * 1000)) / 20000};
     const bool apart = std::all_of(poses.begin(), poses.end(), [&](MapPoint q) {
-      return std::hypot(p.x - q.x, p.y - q.y) > 2 * kRadius_m + 0.02;
+      return std::hypot(p.x - q.x, p.y - q.y) > 2 * kRadiusM + 0.02;
     });
-    if (apart && fits(raster, p, kRadius_m + 1e-4)) poses.push_back(p);
+    if (apart && fits(raster, p, kRadiusM + 1e-4)) poses.push_back(p);
   }
   return poses;
 }
@@ -84,7 +84,7 @@ TEST(Attachment, RandomPosesLeaveAndArriveWithoutMeeting) {
   std::size_t attached = 0;
   std::size_t robots_in_all = 0;
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
-    const World world = worldOf(test::drawRooms(seed, 15, 60, kResolution_m).raster);
+    const World world = worldOf(test::drawRooms(seed, 15, 60, kResolutionM).raster);
     RandomEngine engine(seed);
     const std::size_t count = 20;
     const std::vector<MapPoint> starts = drawPoses(world.raster, count, engine);
@@ -110,8 +110,8 @@ TEST(Attachment, RandomPosesLeaveAndArriveWithoutMeeting) {
       for (const RobotPoses& robot : robots) poses.push_back(arriving ? robot.goal : robot.start);
       EXPECT_EQ(std::set<Vertex>(legs.vertices.begin(), legs.vertices.end()).size(), poses.size());
       const auto collision =
-          findDiscCollision({world.raster.width, world.raster.height, kResolution_m,
-                             world.raster.blocked, kRadius_m, 2 * kRadius_m},
+          findDiscCollision({world.raster.width, world.raster.height, kResolutionM,
+                             world.raster.blocked, kRadiusM, 2 * kRadiusM},
                             coursesOf(world, poses, legs, arriving));
       EXPECT_EQ(collision, std::nullopt) << "seed " << seed << ": " << *collision;
     }
@@ -143,7 +143,7 @@ TEST(Attachment, RobotsOnTheirVerticesNeedNoSteps) {
 
 TEST(Attachment, AStartHalfARadiusFromAWallStillGetsAwayAndSuchAGoalIsRefused) {
   const World world = openWorld();
-  const MapPoint at_wall{kRadius_m / 2, 5};
+  const MapPoint at_wall{kRadiusM / 2, 5};
   const MapPoint free{5, 5};
   EXPECT_TRUE(attachRobots(world.raster, world.roadmap, {{at_wall, free}}).faults.empty());
   const Attachment refused = attachRobots(world.raster, world.roadmap, {{free, at_wall}});
@@ -172,7 +172,7 @@ TEST(Attachment, SaysWhereNoEdgesLead) {
   // Two rooms without a door.
   std::vector<bool> free(200 * 100, true);
   for (std::size_t y = 0; y < 100; ++y) free[y * 200 + 100] = false;
-  const World world = worldOf(rasterOf(200, 100, free, kResolution_m));
+  const World world = worldOf(rasterOf(200, 100, free, kResolutionM));
   const Attachment attachment = attachRobots(world.raster, world.roadmap, {{{2, 2}, {8, 2}}});
   ASSERT_EQ(attachment.faults.size(), 1U);
   EXPECT_EQ(attachment.faults[0].kind, AttachmentFaultKind::kOtherPiece);

@@ -8,13 +8,13 @@
 namespace split_mapf {
 namespace {
 
-constexpr double kRadius_m = 0.3;
+constexpr double kRadiusM = 0.3;
 
 ObstacleRaster openMap() { return rasterOf(200, 200, std::vector<bool>(40000, true), 0.05); }
 
 Roadmap graphOn(const ObstacleRaster& map) {
   RoadmapOptions options;
-  options.robot_radius_m = kRadius_m;
+  options.robot_radius_m = kRadiusM;
   return *buildRoadmap(map, options);
 }
 
