@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "split_mapf/core/error.h"
@@ -118,11 +119,14 @@ TEST(Grid, PartsOfAPlanningGraphHangTogetherByItsEdges) {
 }
 
 TEST(Grid, RefusesAPlanningGraphWhoseCellsAreOutOfOrder) {
-  EXPECT_THROW(Grid(10, 10, {4, 0}, {}), InputError);
-  EXPECT_THROW(Grid(10, 10, {4, 4}, {}), InputError);
-  EXPECT_THROW(Grid(10, 10, {100}, {}), InputError);
-  EXPECT_THROW(Grid(0, 10, std::vector<std::uint32_t>{}, {}), InputError);
-  EXPECT_THROW(Grid(10, 10, {0, 4}, {{0, 2}}), std::out_of_range);
+  using Cells = std::vector<std::uint32_t>;
+  using Edges = std::vector<std::pair<Vertex, Vertex>>;
+  EXPECT_THROW(Grid(10, 10, Cells{4, 0}, Edges{}), InputError);
+  EXPECT_THROW(Grid(10, 10, Cells{4, 4}, Edges{}), InputError);
+  EXPECT_THROW(Grid(10, 10, Cells{100}, Edges{}), InputError);
+  EXPECT_THROW(Grid(0, 10, Cells{}, Edges{}), InputError);
+  const Edges endless = {{0, 2}};
+  EXPECT_THROW(Grid(10, 10, Cells{0, 4}, endless), std::out_of_range);
 }
 
 }  // namespace
