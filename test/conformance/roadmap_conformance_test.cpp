@@ -13,7 +13,7 @@
 #include "split_mapf/core/validate.h"
 #include "split_mapf/pipeline/planner.h"
 #include "split_mapf/roadmap/roadmap.h"
-#include "support/disc_checker.h"
+#include "support/course_checker.h"
 #include "support/drawn_rooms.h"
 
 namespace split_mapf {

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "split_mapf/core/random.h"
-#include "support/disc_checker.h"
+#include "support/course_checker.h"
 #include "support/drawn_rooms.h"
 
 namespace split_mapf {
