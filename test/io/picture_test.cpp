@@ -145,7 +145,7 @@ TEST_F(PictureFileTest, NamesRobotAndStepOutsideTheMap) {
   EXPECT_EQ(errorOf([] {
               drawInstance(small_grid, {{0, 0}}, {});
             }),
-            "1 starts and 0 goals, expected as many");
+            "1 start and 0 goals, expected as many");
 }
 
 TEST_F(PictureFileTest, NamesBadOptions) {
