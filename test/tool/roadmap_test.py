@@ -49,16 +49,18 @@ class RoadmapTest(CommandTest):
         self.assertLessEqual(lattice["reach"], self.report("--robot-radius", 0.3)["reach"])
 
     def test_specks_and_unknown_cells(self):
-        rows = ["." * 60 for _ in range(60)]
-        rows[30] = "." * 30 + "#" + "." * 29
-        rows[0] = "?" * 60
+        # A corridor of 1.5 m with a speck in its middle: 0.725 m are left on both sides.
+        rows = ["." * 120 for _ in range(30)]
+        rows[15] = "." * 60 + "#" + "." * 59
         self.write_map("rooms", rows)
-        plain = self.report("--robot-radius", 0.3)
-        self.assertGreater(self.report("--robot-radius", 0.3, "--ignore-specks", 1)["vertices"],
-                           plain["vertices"])
-        self.assertGreaterEqual(
-            self.report("--robot-radius", 0.3, "--unknown-space", "free")["vertices"],
-            plain["vertices"])
+        plain = self.report("--robot-radius", 0.4)
+        freed = self.report("--robot-radius", 0.4, "--ignore-specks", 1)
+        self.assertGreater(freed["edges"], plain["edges"])
+        rows[15] = rows[15].replace("#", "?")
+        self.write_map("rooms", rows)
+        self.assertEqual(self.report("--robot-radius", 0.4)["edges"], plain["edges"])
+        unknown_free = self.report("--robot-radius", 0.4, "--unknown-space", "free")
+        self.assertEqual(unknown_free["edges"], freed["edges"])
 
     def test_refusals(self):
         self.write_two_rooms(door=13)
