@@ -13,6 +13,9 @@ constexpr double kPeriodSec = 0.5;
 // To give memory back holds up who allocates, for milliseconds: while goals run, every so many
 // looks are enough.
 constexpr std::uint32_t kLooksWhileRunning = 20;
+#ifdef __GLIBC__
+constexpr int kKeptBytes = 2 << 20;
+#endif
 
 }  // namespace
 
@@ -21,6 +24,12 @@ void limitArenas(std::uint32_t arenas) {
   mallopt(M_ARENA_MAX, static_cast<int>(arenas));
 #else
   static_cast<void>(arenas);
+#endif
+#ifdef __GLIBC__
+  // Left alone, glibc lets both grow to 32 and 64 MiB after the first large goal, and keeps as much
+  // at the top of each arena, where malloc_trim() does not reach.
+  mallopt(M_MMAP_THRESHOLD, kKeptBytes);
+  mallopt(M_TRIM_THRESHOLD, kKeptBytes);
 #endif
 }
 

@@ -118,6 +118,8 @@ class PlanCall {
     const Grid& grid = instance_ ? instance_->grid() : no_grid;
     if (options_.output_file == "-") {
       writePlanJson(std::cout, grid, report);
+    } else if (options_.write_better && instance_) {
+      replaceOutput(report);
     } else {
       writePlanJson(options_.output_file, grid, report);
     }
