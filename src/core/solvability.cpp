@@ -156,7 +156,7 @@ SolvabilityVerdict checkReachable(const Instance& instance, const Deadline& dead
 SolvabilityVerdict checkSolvable(const Instance& instance, const Deadline& deadline) {
   try {
     if (instance.grid().isHuge()) {
-      const SolvabilityVerdict verdict = checkReachable(instance, deadline);
+      SolvabilityVerdict verdict = checkReachable(instance, deadline);
       if (verdict.answer == Solvability::kUnsolvable) return verdict;
       if (isSolvableNearWays(instance, deadline)) return {};
     }

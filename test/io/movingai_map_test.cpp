@@ -89,7 +89,7 @@ class MapOfTheFieldTest : public MovingAiMapTest {
   std::string rowsOf(const std::string& text) const {
     std::shared_ptr<const Grid> grid;
     const std::string path = file("a.map", text);
-    const std::string error = errorOf([&] { grid = readMovingAiMap(path); });
+    std::string error = errorOf([&] { grid = readMovingAiMap(path); });
     if (!grid) return error;
     std::string rows;
     for (int y = 0; y < static_cast<int>(grid->height()); ++y) {

@@ -92,7 +92,7 @@ class ScenarioOfTheFieldTest : public ScenarioTest {
   std::string waysOf(const std::string& text) const {
     Scenario scenario;
     const std::string path = file("a.scen", text);
-    const std::string error = errorOf([&] { scenario = readMovingAiScenario(path, small_grid); });
+    std::string error = errorOf([&] { scenario = readMovingAiScenario(path, small_grid); });
     if (!error.empty()) return error;
     std::string ways;
     for (std::size_t i = 0; i < scenario.starts.size(); ++i) {
