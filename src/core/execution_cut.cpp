@@ -40,12 +40,12 @@ Cut cutBefore(const ExecutionGraph& graph, const Forecast& forecast, std::uint32
 
 Cut withoutRings(const ExecutionGraph& graph, Cut cut) {
   const Precedence& order = graph.precedence();
-  const auto hasBegun = [&](VisitId event) {
+  const auto has_begun = [&](VisitId event) {
     const std::uint32_t robot = order[event].robot;
     return graph.at(robot) >= event || (graph.at(robot) + 1 == event && graph.progress(robot) > 0);
   };
   for (const Ring& ring : graph.rings()) {
-    if (hasBegun(ring.front())) continue;
+    if (has_begun(ring.front())) continue;
     for (const VisitId event : ring) {
       VisitId& last = cut[order[event].robot];
       last = std::min(last, event - 1);

@@ -10,7 +10,8 @@
 namespace split_mapf {
 
 /// Keeps the allocator from spreading what goals leave behind over an arena a thread, and from
-/// keeping large blocks that were freed. Call before threads are started. Without effect where the C library is not glibc.
+/// keeping large blocks that were freed. Call before threads are started. Without effect where the
+/// C library is not glibc.
 void limitArenas(std::uint32_t arenas);
 
 /// Gives memory that goals have freed back to the system: the allocator would keep it, as much as

@@ -80,7 +80,7 @@ double threadCpuMs() {
 /// One call of simulate().
 class SimulationRun {
  public:
-  SimulationRun(const Instance& instance, Plan plan, const SimulationOptions& options,
+  SimulationRun(const Instance& instance, const Plan& plan, const SimulationOptions& options,
                 const Deadline& deadline)
       : instance_(instance),
         options_(options),
@@ -235,7 +235,7 @@ SimulationReport simulate(const Instance& instance, const Plan& plan,
   }
   Plan trimmed = plan;
   trimToArrival(trimmed);
-  return SimulationRun(instance, std::move(trimmed), options, deadline).run();
+  return SimulationRun(instance, trimmed, options, deadline).run();
 }
 
 }  // namespace split_mapf

@@ -60,8 +60,8 @@ class VertexFinder {
   }
 
   Place placeOf(Vertex v) const {
-    return {static_cast<double>(roadmap_.cells[v] % roadmap_.width),
-            static_cast<double>(roadmap_.cells[v] / roadmap_.width)};
+    const std::uint32_t row = roadmap_.cells[v] / roadmap_.width;
+    return {static_cast<double>(roadmap_.cells[v] % roadmap_.width), static_cast<double>(row)};
   }
   /// A name of the piece that a vertex belongs to.
   Vertex pieceOf(Vertex v) const { return pieces_[v]; }

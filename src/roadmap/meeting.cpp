@@ -51,7 +51,7 @@ std::optional<std::string> findMeeting(const ObstacleRaster& raster, const Roadm
   for (std::size_t i = 0; i < courses.size(); ++i) {
     if (courses[i].empty()) return "robot " + std::to_string(i) + " has an empty course";
     steps = std::max(steps, courses[i].size());
-    if (const auto touch = findTouch(raster, need, i, courses[i])) return touch;
+    if (auto touch = findTouch(raster, need, i, courses[i])) return touch;
   }
   for (std::size_t step = 0; step < steps; ++step) {
     for (std::size_t i = 0; i < courses.size(); ++i) {

@@ -15,6 +15,7 @@ std::vector<RobotFault> FaultList::first() const {
   std::vector<Entry> entries = entries_;
   cut(entries);
   std::vector<RobotFault> faults;
+  faults.reserve(entries.size());
   for (Entry& entry : entries) faults.push_back(std::move(entry.fault));
   return faults;
 }

@@ -22,7 +22,7 @@ using actionlib_msgs::GoalID;
 using actionlib_msgs::GoalStatus;
 
 // A cancel waits so long for its goal: a large one may be on its way for a while.
-const ros::Duration kPatienceWithGoals(60);
+constexpr double kPatienceWithGoalsSec = 60;
 // A cancel for all goals up to some time reaches so far into the future, beside clocks that differ:
 // one stamp of another clock must not close the action for ever.
 constexpr std::uint32_t kLongestCancelSec = 60;
@@ -220,8 +220,8 @@ void PlanActionServer::forgetTheOld() {
     }
     if (since.isZero() || since > now) since = now;  // a restarted clock goes back
     if (!has_ended) early[tracker->status_.goal_id.id] = since;
-    const ros::Duration& patience = has_ended ? status_list_timeout_ : kPatienceWithGoals;
-    const bool is_old = secondsSince(since, now) > patience.toSec();
+    const double patience_sec = has_ended ? status_list_timeout_.toSec() : kPatienceWithGoalsSec;
+    const bool is_old = secondsSince(since, now) > patience_sec;
     if (++idle > kMostEnded || is_old) tracker = status_list_.erase(tracker);
   }
   early_cancels_ = std::move(early);

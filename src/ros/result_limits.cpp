@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint64_t kLengthField = 4;
 constexpr std::uint64_t kHeader = 4 + 8 + kLengthField;  // sequence, stamp, frame_id
-constexpr std::uint64_t kPose = 7 * 8;
+constexpr std::uint64_t kPose = std::uint64_t{7} * 8;
 
 std::uint64_t pointsOf(const PlanShape& shape) {
   std::uint64_t sum = 0;

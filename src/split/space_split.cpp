@@ -31,7 +31,8 @@ Partition makePartition(const Instance& instance, const SpaceSplitOptions& optio
   }
   if (options.partition == PartitionKind::kRectangles && !instance.grid().hasUnitMoves()) {
     throw SplitSpecError(
-        "split option partition=rectangles needs moves between neighbouring cells; robots that have "
+        "split option partition=rectangles needs moves between neighbouring cells; robots that "
+        "have "
         "size move on a planning graph: take partition=dynamic");
   }
   const bool fits =

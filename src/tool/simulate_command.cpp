@@ -97,7 +97,7 @@ SimulationOptions readOptions(const CommandLine& line) {
 }
 
 std::string readFormat(const CommandLine& line) {
-  const std::string format = line.text("export", "");
+  std::string format = line.text("export", "");
   if (!format.empty() && format != "lorr") {
     throw OptionError("option --export: format '" + format + "' is unknown; lorr is expected");
   }

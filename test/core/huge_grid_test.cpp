@@ -137,7 +137,7 @@ TEST(WayBand, HasTheWaysAndWhatIsNear) {
 
 TEST(HugeGrid, IsCheckedNearTheWaysAndElsewhere) {
   std::vector<bool> free(std::size_t{1600} * 1600, true);
-  for (std::size_t x = 0; x < 1600; ++x) free[800 * 1600 + x] = false;
+  for (std::size_t x = 0; x < 1600; ++x) free[std::size_t{800} * 1600 + x] = false;
   const auto grid = std::make_shared<const Grid>(1600, 1600, free);
   ASSERT_TRUE(grid->isHuge());
   const Instance solvable(grid, {{0, 0}, {1, 0}}, {{1, 0}, {0, 0}});
@@ -161,7 +161,7 @@ TEST(Interruption, IsHeardInEachStage) {
   EXPECT_THROW(DistanceTable(grid->graph(), 0, DistanceExtent::kAll, raised()), Interrupted);
   EXPECT_THROW(instance.distances(0, raised()), Interrupted);
   std::vector<bool> walled = cells;
-  for (std::size_t x = 0; x < 1200; ++x) walled[600 * 1200 + x] = false;
+  for (std::size_t x = 0; x < 1200; ++x) walled[std::size_t{600} * 1200 + x] = false;
   const Grid divided(1200, 1200, walled);
   EXPECT_THROW(findShortestWay(divided, 0, divided.size() - 1, raised()), Interrupted);
   EXPECT_THROW(WayBand(instance, ways, 32, raised()), Interrupted);

@@ -9,6 +9,7 @@ namespace {
 
 std::vector<std::vector<std::uint32_t>> robotsOf(const std::vector<SolvabilityVerdict>& verdicts) {
   std::vector<std::vector<std::uint32_t>> robots;
+  robots.reserve(verdicts.size());
   for (const SolvabilityVerdict& verdict : verdicts) robots.push_back(verdict.robots);
   return robots;
 }

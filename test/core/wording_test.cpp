@@ -21,8 +21,8 @@ TEST(Shown, NeverCutsInsideACharacter) {
   std::string snowmen;
   for (int i = 0; i < 81; ++i) snowmen += "\xe2\x98\x83";
   const std::string text = shown(snowmen);
-  EXPECT_EQ(text.size(), 77U * 3 + 3);
-  EXPECT_EQ(text.substr(0, 77U * 3), snowmen.substr(0, 77U * 3));
+  EXPECT_EQ(text.size(), std::size_t{77} * 3 + 3);
+  EXPECT_EQ(text.substr(0, std::size_t{77} * 3), snowmen.substr(0, std::size_t{77} * 3));
 }
 
 TEST(Shown, EscapesWhatWouldSpoilATerminal) {

@@ -48,7 +48,7 @@ TEST(Departures, AreKeptByEverySearch) {
     Plan plan = planOf(order, earliestSteps(order, steps));
     trimToArrival(plan);
     const Departures departures(steps);
-    const auto expectKept = [&](const Plan& after, const char* who) {
+    const auto expect_kept = [&](const Plan& after, const char* who) {
       SCOPED_TRACE(who);
       ASSERT_TRUE(validate(instance, after).empty());
       for (std::uint32_t i = 0; i < 10; ++i) {
@@ -61,12 +61,12 @@ TEST(Departures, AreKeptByEverySearch) {
     ReplanEffort effort;
     effort.passes = 3;
     effort.departures = departures;
-    expectKept(replanSingly(instance, plan, effort, {}), "replanSingly");
+    expect_kept(replanSingly(instance, plan, effort, {}), "replanSingly");
     NeighbourhoodSearch search(instance, plan, kForever - 1, seed, departures);
     for (int i = 0; i < 150; ++i) {
       search.tryOne({}, [](const std::vector<PathChange>&) { return true; });
     }
-    expectKept(search.plan(), "NeighbourhoodSearch");
+    expect_kept(search.plan(), "NeighbourhoodSearch");
     gained += sumOfCostsOf(plan) - sumOfCostsOf(search.plan());
   }
   EXPECT_GT(gained, 1000U);

@@ -54,8 +54,9 @@ std::vector<MapPoint> drawPoses(const ObstacleRaster& raster, std::size_t count,
                                 RandomEngine& engine) {
   std::vector<MapPoint> poses;
   while (poses.size() < count) {
-    const MapPoint p{static_cast<double>(drawBelow(engine, raster.width * 1000)) / 20000,
-                     static_cast<double>(drawBelow(engine, raster.height * 1000)) / 20000};
+    const MapPoint p{
+        static_cast<double>(drawBelow(engine, std::uint64_t{raster.width} * 1000)) / 20000,
+        static_cast<double>(drawBelow(engine, std::uint64_t{raster.height} * 1000)) / 20000};
     const bool apart = std::all_of(poses.begin(), poses.end(), [&](MapPoint q) {
       return std::hypot(p.x - q.x, p.y - q.y) > 2 * kRadiusM + 0.02;
     });
@@ -107,6 +108,7 @@ TEST(Attachment, RandomPosesLeaveAndArriveWithoutMeeting) {
     for (const bool arriving : {false, true}) {
       const Legs& legs = arriving ? attachment.arrival : attachment.departure;
       std::vector<MapPoint> poses;
+      poses.reserve(robots.size());
       for (const RobotPoses& robot : robots) poses.push_back(arriving ? robot.goal : robot.start);
       EXPECT_EQ(std::set<Vertex>(legs.vertices.begin(), legs.vertices.end()).size(), poses.size());
       const auto collision =
@@ -170,7 +172,7 @@ TEST(Attachment, NamesEveryRobotAtFault) {
 
 TEST(Attachment, SaysWhereNoEdgesLead) {
   // Two rooms without a door.
-  std::vector<bool> free(200 * 100, true);
+  std::vector<bool> free(std::size_t{200} * 100, true);
   for (std::size_t y = 0; y < 100; ++y) free[y * 200 + 100] = false;
   const World world = worldOf(rasterOf(200, 100, free, kResolutionM));
   const Attachment attachment = attachRobots(world.raster, world.roadmap, {{{2, 2}, {8, 2}}});

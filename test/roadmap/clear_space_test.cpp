@@ -55,8 +55,8 @@ TEST(ClearSpace, JudgesWaysAsFineSamplingDoes) {
 
 TEST(ClearSpace, FitsWhereADiscJustTouches) {
   // A corridor of 7 cells between walls: half of it is 3.5.
-  std::vector<bool> free(9 * 20, true);
-  for (std::size_t x = 0; x < 20; ++x) free[x] = free[8 * 20 + x] = false;
+  std::vector<bool> free(std::size_t{9} * 20, true);
+  for (std::size_t x = 0; x < 20; ++x) free[x] = free[std::size_t{8} * 20 + x] = false;
   const ObstacleRaster raster = rasterOf(20, 9, free, 0.1);
   EXPECT_TRUE(ClearSpace(raster, 0.35 / 0.1, Deadline()).isClearWay({5, 4}, {14, 4}));
   EXPECT_FALSE(ClearSpace(raster, 0.351 / 0.1, Deadline()).isClear(Cell{5, 4}));

@@ -56,8 +56,7 @@ TEST(ConflictOptimizer, ARobotAtHomeOnTheOnlyCellIsNoMatterForFailure) {
 
 TEST(ConflictOptimizer, ASlackBeyondAllHorizonsIsCut) {
   const Instance instance = test::instanceFromAscii({"ab."}, {".ab"});
-  const SolveResult result =
-      solve(instance, Objective::kSumOfCosts, {{"slack", "1000000000"}});
+  const SolveResult result = solve(instance, Objective::kSumOfCosts, {{"slack", "1000000000"}});
   ASSERT_EQ(result.termination, Termination::kSolved) << result.message;
   EXPECT_TRUE(validate(instance, *result.plan).empty());
 }

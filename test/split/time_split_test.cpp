@@ -95,9 +95,7 @@ TEST_P(TimeSplit, RatiosShareOutTheTime) {
 TEST_P(TimeSplit, TheSameSeedGivesTheSameStates) {
   const Instance instance = randomInstance(20, 0.1, 80, 4);
   const auto states = [&](std::uint64_t seed) {
-    return splitTime(instance, equal(3, GetParam(), seed), Deadline())
-        ->front()
-        .instance->goals();
+    return splitTime(instance, equal(3, GetParam(), seed), Deadline())->front().instance->goals();
   };
   EXPECT_EQ(states(7), states(7));
   EXPECT_NE(states(7), states(8));
