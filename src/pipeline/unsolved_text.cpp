@@ -8,7 +8,7 @@ namespace split_mapf {
 namespace {
 
 std::string methodOf(const PlanReport& report, const CheckedRequest& request) {
-  std::string text = "searched by solver " + request.solver;
+  std::string text = "with solver " + request.solver;
   if (request.solver != report.solver) text += " (of " + report.solver + ")";
   return text + ", split " + shown(report.split);
 }
