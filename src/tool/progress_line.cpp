@@ -39,10 +39,11 @@ void ProgressLine::finish() {
 
 void ProgressLine::run() {
   std::unique_lock<std::mutex> lock(mutex_);
-  while (!finished_) {
+  // Once at least, however soon the call has ended.
+  do {
     draw();
     wake_.wait_for(lock, kPeriod, [this] { return finished_; });
-  }
+  } while (!finished_);
 }
 
 void ProgressLine::draw() {

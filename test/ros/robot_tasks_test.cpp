@@ -160,6 +160,7 @@ TEST_F(PlaceRobots, AMegabyteAsIdOrFrameWasRepeatedInEveryFault) {
 
 TEST_F(PlaceRobots, TwentyThousandFaultsBecomeAThousandAndTheirNumber) {
   std::vector<RobotTask> tasks;
+  tasks.reserve(20000);
   for (int i = 0; i < 20000; ++i) {
     tasks.push_back(taskBetween(std::to_string(i), poseAt(1.5, 1.5), poseAt(-1, 0.5)));
   }

@@ -214,9 +214,10 @@ void StrangeGoals::crowd(StrangeGoal& strange) {
   for (std::uint32_t i = 0; i < robots; ++i) {
     RobotTask& task = goal.robots[i];
     task.robot_id = oneIn(1000) ? "twin" : std::to_string(i);
-    const std::uint32_t at = i % (side * side);
-    task.start = poseAt(at % side + 0.5, at / side + 0.5);
-    task.goal = poseAt(side - at % side - 0.5, at / side + 0.5);
+    const std::uint32_t column = i % side;
+    const std::uint32_t row = i % (side * side) / side;
+    task.start = poseAt(column + 0.5, row + 0.5);
+    task.goal = poseAt(side - column - 0.5, row + 0.5);
   }
 }
 

@@ -139,7 +139,7 @@ class StrangeGoalsTest : public ::testing::Test {
     const double began = TrackedGoal::now();
     client_.send(id, strange.goal);
     if (strange.cancelled) client_.cancel(id);
-    const PlanPathsActionResultConstPtr end = client_.wait(id, kPatienceSec);
+    PlanPathsActionResultConstPtr end = client_.wait(id, kPatienceSec);
     const double late = TrackedGoal::now() - began - strange.limit_sec;
     latest_ = std::max(latest_, late);
     EXPECT_LE(late, kGraceSec) << id;
