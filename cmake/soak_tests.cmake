@@ -25,5 +25,6 @@ if(SPLIT_MAPF_ROS)
   foreach(name strange_goals termination)
     split_mapf_add_soak(${name} ${CMAKE_CURRENT_SOURCE_DIR}/test/ros/soak_rostest.sh
       ${CMAKE_BINARY_DIR}/devel/setup.bash test/ros/${name}.test)
+    set_tests_properties(soak_${name} PROPERTIES RUN_SERIAL TRUE)  # they measure time
   endforeach()
 endif()

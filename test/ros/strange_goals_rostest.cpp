@@ -136,8 +136,8 @@ class StrangeGoalsTest : public ::testing::Test {
   }
 
   PlanPathsActionResultConstPtr end(const StrangeGoal& strange, const std::string& id) {
-    const double began = TrackedGoal::now();
     client_.send(id, strange.goal);
+    const double began = TrackedGoal::now();  // what the client took to write it is its own
     if (strange.cancelled) client_.cancel(id);
     PlanPathsActionResultConstPtr end = client_.wait(id, kPatienceSec);
     const double late = TrackedGoal::now() - began - strange.limit_sec;
