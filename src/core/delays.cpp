@@ -71,9 +71,14 @@ std::uint32_t Delays::drawLength() {
 std::uint32_t Delays::drawCount(double mean) {
   constexpr double kPart = 30;
   std::uint32_t count = 0;
-  for (; mean > 0; mean -= kPart) {
+  while (mean > 0) {
     const double limit = std::exp(-std::min(mean, kPart));
-    for (double product = drawUnit(); product > limit; product *= drawUnit()) ++count;
+    double product = drawUnit();
+    while (product > limit) {
+      ++count;
+      product *= drawUnit();
+    }
+    mean -= kPart;
   }
   return count;
 }
