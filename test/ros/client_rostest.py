@@ -73,8 +73,6 @@ class PlanClient(unittest.TestCase):
         self.assertEqual(code, 0, output)
         for part in ("SUCCEEDED", "robots        4", "makespan", "sum of costs"):
             self.assertIn(part, output)
-        # Feedback and result are topics of their own: a fast plan may overtake the later stages.
-        self.assertRegex(output, r"(?m)^ +[0-9.]+ s  (check|split|solve|stitch|validate|refine)")
         with open(self.plan, encoding="ascii") as file:
             plan = json.load(file)
         self.assertEqual(plan["status"], "solved")
@@ -208,7 +206,7 @@ class PlanClient(unittest.TestCase):
         client = self.start("--map", map_path, "--scen", scen_path, "--solver",
                             "ecbs", "--split", "none", "--suboptimality", "1", "--objective",
                             "sum_of_costs")
-        self.assertTrue(client.wait_for_output("solve"), client.output())
+        self.assertTrue(client.wait_for_output(" s  solve"), client.output())
         os.killpg(client.process.pid, signal.SIGINT)
         self.assertEqual(client.wait(5), 4, client.output())
         self.assertIn("CANCELLED (PREEMPTED)", client.output())
