@@ -13,7 +13,7 @@ foreach(name plan_server queue recall strange_goals answers)
   add_rostest_gtest(${name}_rostest test/ros/${name}.test test/ros/${name}_rostest.cpp)
   target_include_directories(${name}_rostest PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/test)
   target_link_libraries(${name}_rostest split_mapf_ros_test_support split_mapf_test_support ${GTEST_LIBRARIES})
-  target_compile_options(${name}_rostest PRIVATE ${SPLIT_MAPF_WARNINGS})
+  target_compile_options(${name}_rostest PRIVATE ${SPLIT_MAPF_WARNINGS} -O1)
 endforeach()
 
 foreach(name client replay recording lifecycle sim_time launch big_maps termination)
