@@ -53,6 +53,16 @@ void ActiveGoal::publishFeedback() {
   if (lock.owns_lock()) publishLocked();
 }
 
+void ActiveGoal::setStream(std::shared_ptr<PlanStream> plans) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  plans_ = std::move(plans);
+}
+
+std::shared_ptr<PlanStream> ActiveGoal::stream() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return plans_;
+}
+
 void ActiveGoal::publishLocked() {
   if (finished_) return;
   feedback_.elapsed = elapsedSec();

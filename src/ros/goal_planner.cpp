@@ -113,12 +113,11 @@ PreparedGoal GoalPlanner::prepareUntil(const boost::shared_ptr<const PlanPathsGo
 }
 
 GoalAnswer GoalPlanner::plan(const PreparedGoal& goal, const Deadline& deadline,
-                             const ProgressCallback& progress) const {
+                             const PlanListener& listener) const {
   withGoalErrors([&] { requireFits(goal, leastPoints(goal.instance), true); });
   // Whether a space split fits is known only with the map.
-  const PlanReport report = withGoalErrors([&] {
-    return planner_.plan(goal.instance, goal.options.plan, deadline, {progress, nullptr});
-  });
+  const PlanReport report = withGoalErrors(
+      [&] { return planner_.plan(goal.instance, goal.options.plan, deadline, listener); });
   GoalAnswer answer;
   answer.outcome = outcomeOf(report.termination);
   answer.result.message = sentenceOf(report);
@@ -130,11 +129,9 @@ GoalAnswer GoalPlanner::plan(const PreparedGoal& goal, const Deadline& deadline,
     answer.result.faults = std::move(proof.faults);
   }
   if (report.plan) {
-    withGoalErrors([&] { requireFits(goal, pointsOf(*report.plan), false); });
-    answer.result.plan = toMessage(report, goal.robots.ids, goal.grid,
-                                   goal.options.step_duration_sec, ros::Time::now());
-    answer.layout = layoutOf(report, goal.grid, answer.result.plan.header.stamp);
-    if (goal.options.fill_poses) fillPoses(answer.result.plan);
+    PlanMessages messages = messagesOf(goal, report);
+    answer.result.plan = std::move(messages.plan);
+    answer.layout = std::move(messages.layout);
     if (deadline.stopRequested()) {
       answer.outcome = Outcome::kCancelled;
       answer.result.message = "cancelled; " + answer.result.message;
@@ -142,6 +139,16 @@ GoalAnswer GoalPlanner::plan(const PreparedGoal& goal, const Deadline& deadline,
   }
   answer.result.outcome = codeOf(answer.outcome);
   return answer;
+}
+
+PlanMessages GoalPlanner::messagesOf(const PreparedGoal& goal, const PlanReport& report) const {
+  withGoalErrors([&] { requireFits(goal, pointsOf(*report.plan), false); });
+  PlanMessages messages;
+  messages.plan = toMessage(report, goal.robots.ids, goal.grid, goal.options.step_duration_sec,
+                            ros::Time::now());
+  messages.layout = layoutOf(report, goal.grid, messages.plan.header.stamp);
+  if (goal.options.fill_poses) fillPoses(messages.plan);
+  return messages;
 }
 
 std::vector<SolvabilityVerdict> refusalsOf(const PreparedGoal& goal,

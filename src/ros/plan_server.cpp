@@ -5,6 +5,7 @@
 #include <new>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include <ros/console.h>
 
@@ -14,6 +15,8 @@ namespace split_mapf {
 namespace {
 
 constexpr double kFeedbackPeriodSec = 0.2;
+// How soon a better plan is out where none went before it.
+constexpr double kLookForPlansSec = 0.05;
 constexpr const char* kWhileOthersRead = "while other goals were being read first";
 constexpr const char* kWhileOthersPlan = "while other goals were planned for first";
 
@@ -34,6 +37,18 @@ class HeldSlot {
   const bool held_;
 };
 
+/// A stream that is closed at the end of a scope, however it is left.
+class OpenStream {
+ public:
+  explicit OpenStream(std::shared_ptr<PlanStream> plans) : plans_(std::move(plans)) {}
+  ~OpenStream() { plans_->close(); }
+  OpenStream(const OpenStream&) = delete;
+  OpenStream& operator=(const OpenStream&) = delete;
+
+ private:
+  const std::shared_ptr<PlanStream> plans_;
+};
+
 }  // namespace
 
 PlanServer::PlanServer(const ros::NodeHandle& private_node, const GoalPlanner& planner,
@@ -50,6 +65,9 @@ PlanServer::PlanServer(const ros::NodeHandle& private_node, const GoalPlanner& p
   feedback_timer_ = private_node.createWallTimer(
       ros::WallDuration(kFeedbackPeriodSec),
       [this](const ros::WallTimerEvent& /*event*/) { publishFeedback(); });
+  plans_timer_ = private_node.createWallTimer(
+      ros::WallDuration(kLookForPlansSec),
+      [this](const ros::WallTimerEvent& /*event*/) { publishBetterPlans(); });
   server_.start();
 }
 
@@ -57,6 +75,7 @@ PlanServer::~PlanServer() { shutdown(); }
 
 void PlanServer::shutdown() {
   feedback_timer_.stop();
+  plans_timer_.stop();
   std::list<std::unique_ptr<ActiveGoal>> goals;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -176,17 +195,40 @@ GoalAnswer PlanServer::planInTurn(ActiveGoal& goal, const PreparedGoal& prepared
   const HeldSlot slot(slots_, goal.ticket(), deadline);
   if (!slot.held()) return stopped(goal, deadline, kWhileOthersPlan);
   goal.accept();
-  GoalAnswer answer = planner_.plan(
-      prepared, deadline, [&goal](const PlanProgress& progress) { goal.update(progress); });
+  PlanListener listener;
+  listener.progress = [&goal](const PlanProgress& progress) { goal.update(progress); };
+  const std::shared_ptr<PlanStream> plans = streamOf(prepared);
+  if (prepared.options.plan.refine_sec > 0) {
+    listener.better_plan = [&plans](const PlanReport& report) { plans->offer(report); };
+    goal.setStream(plans);
+  }
+  GoalAnswer answer;
+  {
+    const OpenStream until_the_result(plans);
+    answer = planner_.plan(prepared, deadline, listener);
+  }
   if (!answer.result.plan.paths.empty()) {
-    publish(answer, prepared.grid);
+    publish(answer.result.plan, answer.layout, prepared.grid);
   }
   return answer;
 }
 
-void PlanServer::publish(const GoalAnswer& answer, const PlanningGrid& grid) {
+std::shared_ptr<PlanStream> PlanServer::streamOf(const PreparedGoal& prepared) {
+  return std::make_shared<PlanStream>([this, &prepared](const PlanReport& report) {
+    try {
+      const PlanMessages messages = planner_.messagesOf(prepared, report);
+      publish(messages.plan, messages.layout, prepared.grid);
+    } catch (const std::exception& error) {
+      // Too large, most likely; the result will say it of its own plan.
+      ROS_ERROR("a better plan could not be published: %s", error.what());
+    }
+  });
+}
+
+void PlanServer::publish(const MultiRobotPlan& plan, const PlanLayout& layout,
+                         const PlanningGrid& grid) {
   try {
-    publisher_.publish(answer.result.plan, answer.layout, grid);
+    publisher_.publish(plan, layout, grid);
   } catch (const std::exception& error) {
     // Who asked for the plan gets it all the same.
     ROS_ERROR("the plan could not be published: %s", error.what());
@@ -224,6 +266,18 @@ void PlanServer::publishFeedback() {
   reap();
   const std::lock_guard<std::mutex> lock(mutex_);
   for (const auto& goal : goals_) goal->publishFeedback();
+}
+
+void PlanServer::publishBetterPlans() {
+  std::vector<std::shared_ptr<PlanStream>> streams;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const auto& goal : goals_) {
+      if (std::shared_ptr<PlanStream> plans = goal->stream()) streams.push_back(std::move(plans));
+    }
+  }
+  // Without the lock: messages may be large, and goals and cancels must not wait for them.
+  for (const auto& plans : streams) plans->publishDue();
 }
 
 void PlanServer::reap() {

@@ -2,18 +2,23 @@
 
 #include <gtest/gtest.h>
 #include <ros/ros.h>
+#include <split_mapf/MultiRobotPlan.h>
 #include <split_mapf/PlanOutcome.h>
 
 #include <atomic>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <new>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 #include "ros/goal_messages.h"
 #include "ros/tracked_goal.h"
 #include "split_mapf/ros/plan_server.h"
 #include "split_mapf/solver/ecbs.h"
+#include "split_mapf/solver/lacam.h"
 #include "support/fake_solver.h"
 
 namespace split_mapf {
@@ -253,6 +258,70 @@ TEST_F(Queue, CarriesThePlanOfACancelledGoal) {
   EXPECT_TRUE(found);
   ASSERT_EQ(goal->result().plan.paths.size(), 2U);
   EXPECT_EQ(goal->result().plan.makespan, 5U);
+}
+
+/// The plans on `~plan`, as they came.
+class PlansSeen {
+ public:
+  std::vector<MultiRobotPlan> all() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return plans_;
+  }
+  bool waitFor(const std::function<bool(const std::vector<MultiRobotPlan>&)>& condition) const {
+    for (int i = 0; i < 3000; ++i) {
+      if (condition(all())) return true;
+      ros::WallDuration(0.01).sleep();
+    }
+    return false;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<MultiRobotPlan> plans_;
+  ros::NodeHandle private_node_{"~"};
+  ros::Subscriber subscriber_ = private_node_.subscribe<MultiRobotPlan>(
+      "plan", 100, [this](const MultiRobotPlanConstPtr& plan) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        plans_.push_back(*plan);
+      });
+};
+
+// Its refinement could go on for a minute; there was no plan on ~plan until its end.
+TEST_F(Queue, PublishesPlansOfAGoalThatIsStillRefined) {
+  start({8, 1});
+  const PlansSeen seen;
+  PlanPathsGoal message = test::hardGoal();
+  message.options.solver = "lacam";
+  message.options.suboptimality = 0;
+  message.options.refine_time = 300;
+  message.options.time_limit = 300;
+  server_->solvers.add(LacamSolver::info());
+  TrackedGoal goal(*client_, message);
+  ASSERT_TRUE(seen.waitFor([](const auto& plans) { return plans.size() >= 2; }));
+  EXPECT_EQ(goal.timesDone(), 0);
+  goal.cancel();
+  expectEnd(goal, "PREEMPTED", PlanOutcome::CANCELLED);
+  const MultiRobotPlan result = goal.result().plan;
+  ASSERT_TRUE(seen.waitFor(
+      [&](const auto& plans) { return plans.back().header.stamp == result.header.stamp; }));
+  const auto next = send("ecbs");
+  expectEnd(*next, "SUCCEEDED", PlanOutcome::SUCCEEDED);
+  ASSERT_TRUE(seen.waitFor([](const auto& plans) { return plans.back().paths.size() == 2; }));
+  const std::vector<MultiRobotPlan> plans = seen.all();
+  // Nothing between the result's plan and that of the next goal, which is not refined.
+  ASSERT_GE(plans.size(), 4U);
+  EXPECT_EQ(plans[plans.size() - 2].sum_of_costs, result.sum_of_costs);
+  EXPECT_EQ(plans[plans.size() - 2].header.stamp, result.header.stamp);
+  for (std::size_t i = 1; i + 1 < plans.size(); ++i) {
+    EXPECT_LE(plans[i].sum_of_costs, plans[i - 1].sum_of_costs);
+    EXPECT_EQ(plans[i].paths.size(), message.robots.size());
+  }
+  std::uint64_t told = 0;
+  for (const PlanPathsFeedback& feedback : goal.feedback()) {
+    EXPECT_TRUE(told == 0 || feedback.sum_of_costs <= told);
+    told = feedback.sum_of_costs;
+  }
+  EXPECT_GE(told, result.sum_of_costs);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "split_mapf/pipeline/planner.h"
 #include "split_mapf/ros/goal_planner.h"
 #include "split_mapf/ros/plan_action_server.h"
+#include "split_mapf/ros/plan_stream.h"
 
 namespace split_mapf {
 
@@ -49,6 +50,9 @@ class ActiveGoal {
   void update(const PlanProgress& progress);
   /// Publishes the latest progress, unless the goal has ended.
   void publishFeedback();
+  void setStream(std::shared_ptr<PlanStream> plans);
+  /// The goal's better plans on their way out; null: it has none.
+  std::shared_ptr<PlanStream> stream() const;
   /// Ends the goal in the terminal state that belongs to the outcome. The first call counts.
   void finish(const GoalAnswer& answer);
 
@@ -67,8 +71,9 @@ class ActiveGoal {
   std::atomic<bool> accepted_{false};
   std::atomic<bool> done_{false};
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   PlanPathsFeedback feedback_;
+  std::shared_ptr<PlanStream> plans_;
   bool finished_ = false;
 
   std::thread thread_;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include <split_mapf/MultiRobotPlan.h>
 #include <split_mapf/PlanLayout.h>
 #include <split_mapf/PlanPathsAction.h>
 
@@ -36,6 +37,12 @@ struct GoalAnswer {
   PlanLayout layout;  ///< of the result's plan
 };
 
+/// A plan as it is published.
+struct PlanMessages {
+  MultiRobotPlan plan;
+  PlanLayout layout;
+};
+
 /// A preparation that its deadline ended. The text says during what: "while the map was being
 /// read".
 class PreparationStopped : public std::runtime_error {
@@ -62,7 +69,10 @@ class GoalPlanner {
   /// @throws GoalError: INVALID_SPLIT for a space split that does not fit the map, INVALID_OPTION
   /// for a plan with more bytes or steps than can be sent.
   GoalAnswer plan(const PreparedGoal& goal, const Deadline& deadline,
-                  const ProgressCallback& progress) const;
+                  const PlanListener& listener) const;
+  /// The messages of a plan that begins now. @pre the report has a plan.
+  /// @throws GoalError: INVALID_OPTION for more bytes or steps than can be sent.
+  PlanMessages messagesOf(const PreparedGoal& goal, const PlanReport& report) const;
 
  private:
   /// @param doing  what the deadline would interrupt.

@@ -64,12 +64,15 @@ class PlanServer {
   PreparedGoal prepareInTurn(ActiveGoal& goal, const GoalOptions& options,
                              const Deadline& deadline);
   GoalAnswer planInTurn(ActiveGoal& goal, const PreparedGoal& prepared, const Deadline& deadline);
-  void publish(const GoalAnswer& answer, const PlanningGrid& grid);
+  /// The better plans of a goal that is refined go out on `~plan` while it is.
+  std::shared_ptr<PlanStream> streamOf(const PreparedGoal& prepared);
+  void publish(const MultiRobotPlan& plan, const PlanLayout& layout, const PlanningGrid& grid);
   /// @param when  what was cut short: "while the map was being read".
   GoalAnswer stopped(const ActiveGoal& goal, const Deadline& deadline,
                      const std::string& when) const;
   void finish(ActiveGoal& goal, const GoalAnswer& answer);
   void publishFeedback();
+  void publishBetterPlans();
   /// Forgets goals whose threads have ended.
   void reap();
 
@@ -87,6 +90,7 @@ class PlanServer {
 
   PlanActionServer server_;
   ros::WallTimer feedback_timer_;
+  ros::WallTimer plans_timer_;
 };
 
 }  // namespace split_mapf
