@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "pipeline/solver_choice.h"
 #include "split_mapf/split/split_spec.h"
 
 namespace split_mapf {
@@ -31,10 +32,6 @@ constexpr double kUnnoticedSec = 0.02;
 constexpr double kAsGood = 1.005;
 // Of each further processor a split uses so much.
 constexpr double kParallelShare = 0.8;
-// What solvers that place robots on all threads gain by two of them. Whatever the number of threads
-// is, as the choice of a solver, and so the plan, must not depend on it.
-constexpr double kPlacingGain = 1.35;
-
 // What takes less is not worth a split, whatever the model says of it.
 constexpr double kLeastToSplitSec = 0.05;
 
@@ -55,12 +52,12 @@ std::string inSeconds(double seconds) {
   return text;
 }
 
-double wallSeconds(const MethodEstimate& method, std::uint32_t threads) {
+double wallSeconds(const MethodEstimate& method, const SolverTraits& traits,
+                   std::uint32_t threads) {
   const auto pieces = std::max<std::size_t>(1, parseSplitSpec(method.split).time_ratios.size());
-  if (pieces == 1) {
-    const bool places = method.solver == "conflict_optimizer" || method.solver == "prioritized";
-    return places ? method.seconds / kPlacingGain : method.seconds;
-  }
+  // Whatever the number of threads is, as the choice of a solver, and so the plan, must not depend
+  // on it.
+  if (pieces == 1) return method.seconds / traits.two_thread_gain;
   const auto workers = static_cast<double>(std::min<std::size_t>(pieces, threads));
   return method.seconds / (1 + kParallelShare * (workers - 1));
 }
@@ -68,24 +65,25 @@ double wallSeconds(const MethodEstimate& method, std::uint32_t threads) {
 /// `seconds` are those of the wall.
 struct Candidate : MethodEstimate {
   double processor_sec = 0;  // whatever the threads
+  bool loose = false;        // its plans
 };
 
 std::uint64_t turnOf(const Candidate& choice, const InstanceFeatures& features) {
-  if (choice.solver == kLastResort) return 0;
   const double times = features.head_on >= kOftenHeadOn ? kTurnHeadOn : kTurn;
   const double expansions = times * kExpansionsASecond * choice.processor_sec;
   return static_cast<std::uint64_t>(std::max(kLeastTurn, expansions));
 }
 
-double lastResortSec(const std::vector<Candidate>& methods) {
+double secondsOf(const std::string& solver, const std::vector<Candidate>& methods) {
   for (const Candidate& method : methods) {
-    if (method.solver == kLastResort && method.split == "none") return method.seconds;
+    if (method.solver == solver && method.split == "none") return method.seconds;
   }
   return 0;
 }
 
-bool has(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+SolverTraits traitsOf(const std::string& solver, const SolverTable& solvers) {
+  const auto found = solvers.find(solver);
+  return found != solvers.end() ? found->second : SolverTraits();
 }
 
 /// Those that the question leaves open. A split that was asked for says nothing of the solver: the
@@ -93,14 +91,17 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
 std::vector<Candidate> candidates(const AutoQuestion& question, const CostModel& model) {
   std::vector<Candidate> result;
   for (MethodEstimate& method : model.estimate(question.features, question.objective)) {
-    const bool solver_fits = question.solver == "auto" ? has(question.solvers, method.solver)
-                                                       : question.solver == method.solver;
+    const SolverTraits traits = traitsOf(method.solver, question.solvers);
+    const bool solver_fits =
+        question.solver == "auto"
+            ? question.solvers.count(method.solver) > 0 && plansFor(traits, question.objective)
+            : question.solver == method.solver;
     const bool worth_it = method.split == "none" || method.seconds >= kLeastToSplitSec;
     const bool split_fits = question.split == "auto" ? worth_it : method.split == "none";
     if (!solver_fits || !split_fits) continue;
     const double processor_sec = method.seconds;
-    method.seconds = wallSeconds(method, question.threads);
-    result.push_back({std::move(method), processor_sec});
+    method.seconds = wallSeconds(method, traits, question.threads);
+    result.push_back({std::move(method), processor_sec, traits.loose_plans});
   }
   return result;
 }
@@ -125,15 +126,14 @@ void sortBestFirst(std::vector<Candidate>& methods, bool loose) {
     if (method.seconds <= soon_sec) least = std::min(least, method.excess);
   }
   const double good = kAsGood * (1 + least) - 1;
-  const auto rank = [=](const MethodEstimate& method) {
-    const bool wanted = loose && method.solver == kLoosePlans && method.split == "none" &&
+  const auto rank = [=](const Candidate& method) {
+    const bool wanted = loose && method.loose && method.split == "none" &&
                         method.seconds <= soon_sec + kUnnoticedSec;
     const bool soon = method.seconds <= soon_sec;
     return std::make_tuple(!wanted, !soon, soon ? std::max(good, method.excess) : method.seconds);
   };
-  std::stable_sort(
-      methods.begin(), methods.end(),
-      [&](const MethodEstimate& a, const MethodEstimate& b) { return rank(a) < rank(b); });
+  std::stable_sort(methods.begin(), methods.end(),
+                   [&](const Candidate& a, const Candidate& b) { return rank(a) < rank(b); });
 }
 
 }  // namespace
@@ -141,22 +141,23 @@ void sortBestFirst(std::vector<Candidate>& methods, bool loose) {
 AutoChoice chooseMethod(const AutoQuestion& question, const CostModel& model) {
   std::vector<Candidate> methods = candidates(question, model);
   if (methods.empty()) {
-    return {question.solver == "auto" ? question.solvers.front() : question.solver,
+    return {question.solver == "auto" ? question.solvers.begin()->first : question.solver,
             question.split == "auto" ? "none" : question.split, "nothing is known of it", 0, 0};
   }
   const bool loose = startsLoose(question);
   const double least = std::min_element(methods.begin(), methods.end(), costsLess)->excess;
   const double most = (loose ? kComparableLoose : kComparable) * (1 + least) - 1;
-  const double last_resort_sec = lastResortSec(methods);
+  const std::string last_resort = lastResort(question.solvers, question.objective);
+  const double last_resort_sec = secondsOf(last_resort, methods);
   methods.erase(std::remove_if(methods.begin(), methods.end(),
                                [most](const MethodEstimate& m) { return m.excess > most; }),
                 methods.end());
   sortBestFirst(methods, loose);
   const Candidate& first = methods.front();
+  const bool is_last = first.solver == last_resort;
   AutoChoice choice{first.solver, question.split == "auto" ? first.split : question.split,
-                    inSeconds(first.seconds) + " expected",
-                    first.solver == kLastResort ? 0 : last_resort_sec,
-                    turnOf(first, question.features)};
+                    inSeconds(first.seconds) + " expected", is_last ? 0 : last_resort_sec,
+                    is_last ? 0 : turnOf(first, question.features)};
   if (methods.size() > 1) {
     choice.reason += ", " + inSeconds(methods[1].seconds) + " by " + methods[1].solver;
     if (methods[1].split != "none") choice.reason += " in " + methods[1].split;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "pipeline/plan_run.h"
+#include "pipeline/solver_choice.h"
 #include "pipeline/stage_words.h"
 #include "split_mapf/core/validate.h"
 
@@ -51,9 +52,10 @@ BandRun::BandRun(const Instance& instance, CheckedRequest request, const SolverR
       listener_(listener),
       log_(listener.progress) {}
 
-bool BandRun::isFor(const Instance& instance, const CheckedRequest& request) {
-  const bool promises = request.solver == "ecbs" || request.solver == "ilp";
-  return instance.grid().isHuge() && !promises && !request.split.space;
+bool BandRun::isFor(const Instance& instance, const CheckedRequest& request,
+                    const SolverRegistry& solvers) {
+  return instance.grid().isHuge() && !request.split.space &&
+         !promisesBound(solvers.traits(), request.solver);
 }
 
 PlanReport BandRun::run() {

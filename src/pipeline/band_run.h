@@ -21,8 +21,9 @@ class BandRun {
           Executor& executor, const Deadline& deadline, const PlanListener& listener);
 
   /// Whether an instance is planned this way: its map is huge, and nothing is asked for that only
-  /// the whole map can give, which are a space split and the bounds of `ecbs` and `ilp`.
-  static bool isFor(const Instance& instance, const CheckedRequest& request);
+  /// the whole map can give, which are a space split and the bounds of solvers that prove them.
+  static bool isFor(const Instance& instance, const CheckedRequest& request,
+                    const SolverRegistry& solvers);
   PlanReport run();
 
  private:

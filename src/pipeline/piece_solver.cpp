@@ -6,6 +6,8 @@
 #include <new>
 #include <utility>
 
+#include "pipeline/solver_choice.h"
+
 namespace split_mapf {
 namespace {
 
@@ -56,13 +58,9 @@ std::vector<SolveResult> PieceSolver::solve(const std::vector<PieceTask>& tasks,
 }
 
 std::vector<std::string> PieceSolver::otherSolvers() const {
-  const std::vector<std::string> known = solvers_.names();
-  std::vector<std::string> result;
-  for (const char* name : {"conflict_optimizer", "prioritized", "lacam", "ecbs"}) {
-    if (name == request_.solver) continue;
-    if (std::find(known.begin(), known.end(), name) != known.end()) result.emplace_back(name);
-  }
-  return result;
+  std::vector<std::string> others = fallbacks(solvers_.traits(), request_.asked.objective);
+  others.erase(std::remove(others.begin(), others.end(), request_.solver), others.end());
+  return others;
 }
 
 std::uint32_t PieceSolver::threadsEach(std::size_t tasks) const {
@@ -85,9 +83,10 @@ SolveResult PieceSolver::solveOne(const PieceTask& task, std::uint32_t threads,
     try {
       SolverOptions options = request_.solver_options;
       if (row.solver != request_.solver) options.values.clear();
-      options.threads = threads;
       if (task.piece->shares > 0) options.expansion_limit = task.piece->shares * usualBudget(task);
-      result = solvers_.create(row.solver, options)->solve(piece, deadline);
+      SolveRequest question(piece, deadline);
+      question.threads = threads;
+      result = solvers_.create(row.solver, options)->solve(question);
       row.horizon = makespanLowerBound(piece);
     } catch (const Interrupted&) {
       result = SolveResult();

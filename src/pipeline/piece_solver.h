@@ -34,8 +34,7 @@ class PieceSolver {
   std::vector<SolveResult> solve(const std::vector<PieceTask>& tasks,
                                  std::vector<SubproblemReport>& rows);
 
-  /// Solvers that may find a plan for a piece where the request's own has failed, the one whose
-  /// plans are best first.
+  /// The fallbacks() beside the request's own solver.
   std::vector<std::string> otherSolvers() const;
 
  private:

@@ -1,7 +1,6 @@
 #include "pipeline/plan_run.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <new>
 #include <stdexcept>
@@ -9,6 +8,8 @@
 
 #include "pipeline/auto_choice.h"
 #include "pipeline/refine.h"
+#include "pipeline/settlement.h"
+#include "pipeline/solver_choice.h"
 #include "pipeline/stage_words.h"
 #include "pipeline/unsolved_text.h"
 #include "solver/search/replan_singly.h"
@@ -22,12 +23,6 @@ namespace {
 
 // Robots whose conflicts hang together up to this number are worth a search for the optimum.
 constexpr std::uint32_t kSmallKnot = 20;
-struct OptimumTurn {
-  const char* solver;
-  std::uint64_t expansions;
-};
-// Each some hundredths of a second: joint moves are many times as fast as states of paths.
-constexpr std::array<OptimumTurn, 2> kOptimumTurns = {{{"ecbs", 50000}, {"joint", 1000000}}};
 // More robots than that are measured only where `auto` has to choose.
 constexpr std::uint32_t kMostToMeasure = 200;
 // Passes across the seams where nothing is said and the cost is above its bound.
@@ -55,6 +50,8 @@ PlanRun::PlanRun(const Instance& instance, CheckedRequest request, const SolverR
       log_(listener.progress),
       better_plan_(listener.better_plan),
       solvers_(solvers),
+      traits_(solvers.traits()),
+      last_resort_(lastResort(traits_, request_.asked.objective)),
       piece_solver_(request_, solvers, executor, solve_deadline_, log_) {
   const PlanRequest& asked = request_.asked;
   report_.solver = asked.solver;
@@ -77,7 +74,7 @@ PlanReport PlanRun::run() {
       report_.message = "memory ran out in stage " + log_.stage();
     }
   }
-  if (!report_.plan) report_.message += whatIsKnown(report_, request_);
+  if (!report_.plan) report_.message += whatIsKnown(report_, request_, last_resort_);
   if (!report_.optimal) report_.certified_by.clear();
   log_.leaveStage();
   report_.stages = log_.stages();
@@ -131,7 +128,7 @@ void PlanRun::refineWithin(double seconds) {
   std::uint64_t least_sum = 0;
   options.proved = [&](Objective objective, std::uint64_t bound) {
     if (objective == report_.objective) {
-      raiseBound(bound, "joint");
+      raiseBound(bound, Settlement::kEngine);
     } else {
       least_sum = bound;
     }
@@ -218,11 +215,9 @@ bool PlanRun::mustChoose() const {
 void PlanRun::choose() {
   if (!mustChoose()) return;
   log_.enterStage("choose");
-  const std::vector<std::string> known = solvers_.names();
-  const bool has_last_resort = std::find(known.begin(), known.end(), kLastResort) != known.end();
-  if (request_.solver == "auto" && has_last_resort && stepTablesAreTooLarge()) {
-    request_.solver = kLastResort;
-    request_.solver_options.values = {{"polish", "0"}};
+  if (request_.solver == "auto" && !last_resort_.empty() && stepTablesAreTooLarge()) {
+    request_.solver = last_resort_;
+    request_.solver_options.values = solvers_.info(last_resort_).lean_values;
     if (request_.split.kind == SplitSpec::Kind::kAuto) request_.split = SplitSpec{};
     choice_ =
         " (chosen: a table of steps would take " + std::to_string(stepTableMebibytes()) + " MiB)";
@@ -235,7 +230,7 @@ void PlanRun::choose() {
   question.objective = report_.objective;
   question.threads = report_.threads;
   question.solver = request_.solver;
-  question.solvers = solvers_.names();
+  question.solvers = traits_;
   question.split = report_.split;
   question.refines = request_.asked.refine_sec > 0;
   const AutoChoice choice = chooseMethod(question, CostModel::shipped());
@@ -269,18 +264,15 @@ void PlanRun::searchOptimum() {
                       features_->largest_group <= kSmallKnot;
   if (!wanted) return;
   log_.enterStage("optimum");
-  const std::vector<std::string> known = solvers_.names();
-  for (const OptimumTurn& turn : kOptimumTurns) {
-    if (report_.optimal || std::find(known.begin(), known.end(), turn.solver) == known.end()) {
-      continue;
-    }
+  for (const std::string& solver : knotSolvers(traits_, report_.objective)) {
+    if (report_.optimal) return;
     SolverOptions options;
     options.objective = report_.objective;
     options.suboptimality = 1;
     options.seed = report_.seed;
-    options.expansion_limit = turn.expansions;
-    SolveResult result = solvers_.create(turn.solver, options)->solve(instance_, deadline_);
-    raiseBound(result.lower_bound, result.optimal ? result.certified_by : turn.solver);
+    options.expansion_limit = traits_.at(solver).small_knot_expansions;
+    SolveResult result = solvers_.create(solver, options)->solve(instance_, deadline_);
+    raiseBound(result.lower_bound, result.optimal ? result.certified_by : solver);
     if (result.plan &&
         costOf(*result.plan, report_.objective) < costOf(*report_.plan, report_.objective)) {
       accept(std::move(*result.plan));
@@ -375,12 +367,12 @@ bool PlanRun::callAnother(const RepairLoop::Outcome& outcome) {
     others_ = piece_solver_.otherSolvers();
     std::reverse(others_->begin(), others_->end());
     // It ends with a plan or a proof, which the others would leave open, and in time.
-    const auto is_other = [](const std::string& name) { return name != kLastResort; };
+    const auto is_other = [this](const std::string& name) { return name != last_resort_; };
     const auto last_resort = std::stable_partition(others_->begin(), others_->end(), is_other);
     if (late) others_->erase(others_->begin(), last_resort);
     if (stepTablesAreTooLarge()) {
-      const auto keeps_tables = [](const std::string& name) {
-        return name != "ecbs" && name != kLastResort;
+      const auto keeps_tables = [this](const std::string& name) {
+        return keepsStepTable(traits_, name);
       };
       others_->erase(std::remove_if(others_->begin(), others_->end(), keeps_tables),
                      others_->end());

@@ -67,7 +67,7 @@ class PlanRun {
   void interrupt();
   TimeSplitOptions timeSplitOptions() const;
   SpaceSplitOptions spaceSplitOptions() const;
-  /// What `auto` chose gets all the time but what kLastResort is likely to need.
+  /// What `auto` chose gets all the time but what the last resort is likely to need.
   void keepTimeForLastResort(double expected_sec);
 
   const Instance& instance_;
@@ -79,6 +79,8 @@ class PlanRun {
   const BetterPlanCallback& better_plan_;
   std::optional<SolvabilityChecker> checker_;  ///< from stage "check" on
   const SolverRegistry& solvers_;
+  const SolverTable traits_;
+  const std::string last_resort_;  ///< a solver; empty: there is none
   PieceSolver piece_solver_;
   std::vector<Path> shortest_paths_;                ///< of the robots, until `auto` has chosen
   std::vector<Path> ways_;                          ///< of the robots, until they are cut in time

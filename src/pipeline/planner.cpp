@@ -13,7 +13,7 @@ void Planner::requireValid(const PlanRequest& request) const { check(request, so
 PlanReport Planner::plan(const Instance& instance, const PlanRequest& request,
                          const Deadline& deadline, const PlanListener& listener) const {
   CheckedRequest checked = check(request, solvers_);
-  if (BandRun::isFor(instance, checked)) {
+  if (BandRun::isFor(instance, checked, solvers_)) {
     return BandRun(instance, std::move(checked), solvers_, executor_, deadline, listener).run();
   }
   return PlanRun(instance, std::move(checked), solvers_, executor_, deadline, listener).run();

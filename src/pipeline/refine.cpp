@@ -13,6 +13,7 @@
 #include "pipeline/incumbent.h"
 #include "pipeline/refine_worker.h"
 #include "pipeline/settlement.h"
+#include "pipeline/solver_choice.h"
 #include "pipeline/window_descent.h"
 #include "solver/joint/group_search.h"
 #include "solver/search/placement.h"
@@ -48,13 +49,7 @@ class Refinement {
         settlement_(instance, options.objective, options.lower_bound),
         plan_(std::move(plan)),
         cost_(sumOfCostsOf(plan_)) {
-    if (options.solvers == nullptr) return;
-    const std::vector<std::string> known = options.solvers->names();
-    for (const char* name : {"ecbs", "ilp"}) {
-      if (std::find(known.begin(), known.end(), name) != known.end()) {
-        window_solvers_.emplace_back(name);
-      }
-    }
+    if (options.solvers != nullptr) window_solvers_ = windowSolvers(options.solvers->traits());
   }
 
   Plan run() {

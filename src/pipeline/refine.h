@@ -24,7 +24,7 @@ struct RefineOptions {
   /// Told what is proved on the way. For makespan, too: the sum of costs that no plan of the least
   /// makespan goes below. Null: nobody is.
   std::function<void(Objective, std::uint64_t bound)> proved;
-  /// Whose `ecbs` and `ilp` solve windows of the plan anew for makespan; null: nobody does.
+  /// Whose windowSolvers() solve windows of the plan anew for makespan; null: nobody does.
   const SolverRegistry* solvers = nullptr;
 };
 

@@ -16,6 +16,8 @@ namespace split_mapf {
 /// Not thread-safe.
 class Settlement {
  public:
+  static constexpr const char* kEngine = "joint";  ///< certifies what is proved here
+
   /// @param lower_bound  proved for the objective [steps]. @pre the instance outlives this object.
   Settlement(const Instance& instance, Objective objective, std::uint64_t lower_bound);
 

@@ -13,9 +13,11 @@ std::string methodOf(const PlanReport& report, const CheckedRequest& request) {
   return text + ", split " + shown(report.split);
 }
 
-std::string advice(Termination termination, const CheckedRequest& request) {
-  const bool is_fast = request.solver == "lacam";
-  const std::string another = is_fast ? "fewer robots" : "solver lacam, or fewer robots";
+std::string advice(Termination termination, const std::string& solver,
+                   const std::string& last_resort) {
+  const bool has_another = !last_resort.empty() && solver != last_resort;
+  const std::string another =
+      has_another ? "solver " + last_resort + ", or fewer robots" : "fewer robots";
   switch (termination) {
     case Termination::kTimeout:
       return "try a longer time limit, " + another;
@@ -28,7 +30,8 @@ std::string advice(Termination termination, const CheckedRequest& request) {
 
 }  // namespace
 
-std::string whatIsKnown(const PlanReport& report, const CheckedRequest& request) {
+std::string whatIsKnown(const PlanReport& report, const CheckedRequest& request,
+                        const std::string& last_resort) {
   const Termination end = report.termination;
   if (end != Termination::kTimeout && end != Termination::kNoPlanFound &&
       end != Termination::kMemoryLimit) {
@@ -41,7 +44,7 @@ std::string whatIsKnown(const PlanReport& report, const CheckedRequest& request)
   }
   text +=
       report.solvable ? "; a plan exists: that is proved" : "; whether a plan exists is not known";
-  return text + "; " + methodOf(report, request) + "; " + advice(end, request);
+  return text + "; " + methodOf(report, request) + "; " + advice(end, request.solver, last_resort);
 }
 
 }  // namespace split_mapf

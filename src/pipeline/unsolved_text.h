@@ -11,6 +11,8 @@ namespace split_mapf {
 /// whether a plan exists, who searched for it, and what to try. Begins with "; ". Empty for a
 /// proof, a cancelled run and a plan.
 /// @param request  with the solver and split that were used last.
-std::string whatIsKnown(const PlanReport& report, const CheckedRequest& request);
+/// @param last_resort  the solver to try instead; empty: there is none.
+std::string whatIsKnown(const PlanReport& report, const CheckedRequest& request,
+                        const std::string& last_resort);
 
 }  // namespace split_mapf

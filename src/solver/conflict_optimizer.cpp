@@ -16,6 +16,17 @@ namespace {
 // Fewer robots get as many placements as these.
 constexpr std::uint32_t kFewRobots = 100;
 
+constexpr const char* kName = "conflict_optimizer";
+
+SolverTraits traitsOfConflictOptimizer() {
+  SolverTraits traits;
+  traits.uses_threads = true;
+  traits.fallback_rank = 1;
+  traits.keeps_step_table = true;
+  traits.two_thread_gain = 1.35;
+  return traits;
+}
+
 /// Shortest first; the seed decides between equal lengths.
 std::vector<std::uint32_t> firstQueue(const Instance& instance, std::uint64_t seed) {
   RandomEngine engine(seed);
@@ -27,10 +38,10 @@ std::vector<std::uint32_t> firstQueue(const Instance& instance, std::uint64_t se
 }  // namespace
 
 ConflictOptimizerSolver::ConflictOptimizerSolver(const SolverOptions& options)
-    : objective_(options.objective),
+    : Solver(kName, traitsOfConflictOptimizer()),
+      objective_(options.objective),
       seed_(options.seed),
-      expansion_limit_(options.expansion_limit),
-      threads_(std::max(1U, options.threads)) {
+      expansion_limit_(options.expansion_limit) {
   const OptionValues values(options.values);
   settings_.patience = values.count("patience", settings_.patience);
   settings_.slack = values.count("slack", settings_.slack);
@@ -38,24 +49,30 @@ ConflictOptimizerSolver::ConflictOptimizerSolver(const SolverOptions& options)
 
 SolverInfo ConflictOptimizerSolver::info() {
   const Settings defaults;
-  return {"conflict_optimizer",
-          "places robots within a fixed horizon, displacing the cheapest: optimal makespan on most "
-          "maps",
-          {{"patience", std::to_string(defaults.patience),
-            "placements a robot without progress before a horizon is given up for a longer one"},
-           {"slack", std::to_string(defaults.slack),
-            "sum of costs: steps that the first horizon exceeds the greatest shortest path by"}},
-          [](const SolverOptions& options) {
-            return std::make_unique<ConflictOptimizerSolver>(options);
-          }};
+  SolverInfo info;
+  info.name = kName;
+  info.description =
+      "places robots within a fixed horizon, displacing the cheapest: optimal makespan on most "
+      "maps";
+  info.traits = traitsOfConflictOptimizer();
+  info.options = {
+      {"patience", std::to_string(defaults.patience),
+       "placements a robot without progress before a horizon is given up for a longer one"},
+      {"slack", std::to_string(defaults.slack),
+       "sum of costs: steps that the first horizon exceeds the greatest shortest path by"}};
+  info.make = [](const SolverOptions& options) {
+    return std::make_unique<ConflictOptimizerSolver>(options);
+  };
+  return info;
 }
 
-SolveResult ConflictOptimizerSolver::solve(const Instance& instance,
-                                           const Deadline& deadline) const {
+SolveResult ConflictOptimizerSolver::run(const SolveRequest& request) const {
+  const Instance& instance = request.instance;
+  const Deadline& deadline = request.deadline;
   SolveResult result;
   if (const auto robot = findCutOffRobot(instance)) return cutOffResult(*robot);
   result.lower_bound = lowerBound(instance, objective_);
-  Placement placement(instance, firstQueue(instance, seed_), seed_, threads_);
+  Placement placement(instance, firstQueue(instance, seed_), seed_, std::max(1U, request.threads));
   const std::uint32_t bound = makespanLowerBound(instance);
   Placement::Effort effort;
   effort.patience =
@@ -80,7 +97,7 @@ SolveResult ConflictOptimizerSolver::solve(const Instance& instance,
     }
     result.termination = Termination::kSolved;
     result.plan = placement.plan();
-    certifyByLowerBound(result, objective_, "conflict_optimizer");
+    certifyByLowerBound(result, objective_, kName);
     return result;
   }
   result.termination = Termination::kNoPlanFound;

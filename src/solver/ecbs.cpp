@@ -14,8 +14,23 @@
 #include "split_mapf/core/option_values.h"
 
 namespace split_mapf {
+namespace {
 
-EcbsSolver::EcbsSolver(const SolverOptions& options) : settings_(new EcbsSettings) {
+constexpr const char* kName = "ecbs";
+
+SolverTraits traitsOfEcbs() {
+  SolverTraits traits;
+  traits.complete = true;
+  traits.optimal_at_one = true;
+  traits.fallback_rank = 4;
+  traits.small_knot_expansions = 50000;  // some hundredths of a second
+  return traits;
+}
+
+}  // namespace
+
+EcbsSolver::EcbsSolver(const SolverOptions& options)
+    : Solver(kName, traitsOfEcbs()), settings_(new EcbsSettings) {
   EcbsSettings& settings = *settings_;
   settings.objective = options.objective;
   settings.suboptimality = options.suboptimality;
@@ -44,33 +59,39 @@ EcbsSolver::~EcbsSolver() = default;
 SolverInfo EcbsSolver::info() {
   const EcbsSettings defaults;
   const auto flag = [](bool value) { return std::string(value ? "true" : "false"); };
-  return {
-      "ecbs",
-      "enhanced conflict-based search: bounded-suboptimal, complete on solvable instances",
-      {{"order", defaults.order,
-        "robots in the first plan: shortest_first, longest_first, random or given"},
-       {"detour", std::to_string(defaults.detour),
-        "steps a robot may go round before more weighs like collisions"},
-       {"bypass", flag(defaults.bypass), "replace a path instead of branching where that helps"},
-       {"targets", flag(defaults.targets), "branch on arrival times at goals that are run into"},
-       {"cardinal", flag(defaults.cardinal),
-        "for sum of costs: branch first on conflicts that raise the bound in both branches"},
-       {"matching", flag(defaults.matching),
-        "add what disjoint cardinal conflicts cost to the lower bound; only with cardinal"},
-       {"corridor", flag(defaults.corridor),
-        "branch on who comes first where robots meet head on in a corridor"},
-       {"independence", flag(defaults.independence),
-        "for w up to 1.1: plan groups of robots that do not meet apart"},
-       {"joint", flag(defaults.joint),
-        "at w = 1: search the joint states of small groups whose constraint trees grow"},
-       {"raise_every", std::to_string(defaults.raise_every),
-        "every so many nodes the one of the least lower bound; 0: never"},
-       {"polish", std::to_string(defaults.polish),
-        "passes over the plan found that give robots earlier paths"}},
-      [](const SolverOptions& options) { return std::make_unique<EcbsSolver>(options); }};
+  SolverInfo info;
+  info.name = kName;
+  info.description =
+      "enhanced conflict-based search: bounded-suboptimal, complete on solvable instances";
+  info.traits = traitsOfEcbs();
+  info.options = {
+      {"order", defaults.order,
+       "robots in the first plan: shortest_first, longest_first, random or given"},
+      {"detour", std::to_string(defaults.detour),
+       "steps a robot may go round before more weighs like collisions"},
+      {"bypass", flag(defaults.bypass), "replace a path instead of branching where that helps"},
+      {"targets", flag(defaults.targets), "branch on arrival times at goals that are run into"},
+      {"cardinal", flag(defaults.cardinal),
+       "for sum of costs: branch first on conflicts that raise the bound in both branches"},
+      {"matching", flag(defaults.matching),
+       "add what disjoint cardinal conflicts cost to the lower bound; only with cardinal"},
+      {"corridor", flag(defaults.corridor),
+       "branch on who comes first where robots meet head on in a corridor"},
+      {"independence", flag(defaults.independence),
+       "for w up to 1.1: plan groups of robots that do not meet apart"},
+      {"joint", flag(defaults.joint),
+       "at w = 1: search the joint states of small groups whose constraint trees grow"},
+      {"raise_every", std::to_string(defaults.raise_every),
+       "every so many nodes the one of the least lower bound; 0: never"},
+      {"polish", std::to_string(defaults.polish),
+       "passes over the plan found that give robots earlier paths"}};
+  info.make = [](const SolverOptions& options) { return std::make_unique<EcbsSolver>(options); };
+  return info;
 }
 
-SolveResult EcbsSolver::solve(const Instance& instance, const Deadline& deadline) const {
+SolveResult EcbsSolver::run(const SolveRequest& request) const {
+  const Instance& instance = request.instance;
+  const Deadline& deadline = request.deadline;
   if (const auto robot = findCutOffRobot(instance)) return cutOffResult(*robot);
   EcbsRun run(instance, *settings_, deadline);
   SolveResult result = RobotGroups(run).solve();
@@ -85,7 +106,7 @@ SolveResult EcbsSolver::solve(const Instance& instance, const Deadline& deadline
     result.message.clear();
   }
   result.low_level_expansions = run.low_level.expansions();
-  certifyByLowerBound(result, settings_->objective, run.joint ? "ecbs/joint" : "ecbs");
+  certifyByLowerBound(result, settings_->objective, run.joint ? "ecbs/joint" : kName);
   return result;
 }
 

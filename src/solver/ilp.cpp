@@ -27,6 +27,15 @@ constexpr std::uint64_t kStatesAnExpansion = 500;
 constexpr std::uint64_t kTurn = 4000000;
 constexpr std::uint64_t kArcFlowTurn = 200000;
 
+constexpr const char* kName = "ilp";
+
+SolverTraits traitsOfIlp() {
+  SolverTraits traits;
+  traits.complete = true;
+  traits.optimal_at_one = true;
+  return traits;
+}
+
 /// What is known before the engine starts.
 SolveResult unsolvable(const SolvabilityVerdict& verdict, const Grid& grid) {
   SolveResult result;
@@ -96,7 +105,8 @@ SolveResult conclude(EngineResult found, Objective objective, const std::string&
   result.termination = Termination::kSolved;
   result.plan = std::move(found.plan);
   const bool searched = found.counts.nodes > 0;
-  certifyByLowerBound(result, objective, "ilp/" + (searched ? engine : "shortest_paths"));
+  certifyByLowerBound(result, objective,
+                      std::string(kName) + "/" + (searched ? engine : "shortest_paths"));
   const std::uint64_t cost = costOf(*result.plan, objective);
   if (result.optimal) {
     result.message = "optimal, certified by " + result.certified_by + ": ";
@@ -110,7 +120,8 @@ SolveResult conclude(EngineResult found, Objective objective, const std::string&
 }  // namespace
 
 IlpSolver::IlpSolver(const SolverOptions& options)
-    : objective_(options.objective),
+    : Solver(kName, traitsOfIlp()),
+      objective_(options.objective),
       seed_(options.seed),
       expansion_limit_(options.expansion_limit) {
   const OptionValues values(options.values);
@@ -123,19 +134,26 @@ IlpSolver::IlpSolver(const SolverOptions& options)
 
 SolverInfo IlpSolver::info() {
   const Settings defaults;
-  return {"ilp",
-          "integer linear programming on GLPK: exact, for small teams and pieces of a split",
-          {{"engine", defaults.engine,
-            "column_generation, or arc_flow: the paper's formulation, as a reference"},
-           {"heuristic", defaults.heuristic ? "true" : "false",
-            "whether a heuristic plan may begin the search, or certify itself"},
-           {"joint", defaults.joint ? "true" : "false",
-            "whether a search over joint states gets a turn where the tree grows"},
-           {"memory_mb", std::to_string(defaults.memory_mb), "MiB that the program may take"}},
-          [](const SolverOptions& options) { return std::make_unique<IlpSolver>(options); }};
+  SolverInfo info;
+  info.name = kName;
+  info.description =
+      "integer linear programming on GLPK: exact, for small teams and pieces of a split";
+  info.traits = traitsOfIlp();
+  info.options = {
+      {"engine", defaults.engine,
+       "column_generation, or arc_flow: the paper's formulation, as a reference"},
+      {"heuristic", defaults.heuristic ? "true" : "false",
+       "whether a heuristic plan may begin the search, or certify itself"},
+      {"joint", defaults.joint ? "true" : "false",
+       "whether a search over joint states gets a turn where the tree grows"},
+      {"memory_mb", std::to_string(defaults.memory_mb), "MiB that the program may take"}};
+  info.make = [](const SolverOptions& options) { return std::make_unique<IlpSolver>(options); };
+  return info;
 }
 
-SolveResult IlpSolver::solve(const Instance& instance, const Deadline& deadline) const {
+SolveResult IlpSolver::run(const SolveRequest& request) const {
+  const Instance& instance = request.instance;
+  const Deadline& deadline = request.deadline;
   if (const auto robot = findCutOffRobot(instance)) return cutOffResult(*robot);
   const SolvabilityVerdict verdict = checkSolvable(instance, deadline);
   if (verdict.answer == Solvability::kUnsolvable) return unsolvable(verdict, instance.grid());

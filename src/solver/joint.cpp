@@ -16,8 +16,19 @@ namespace {
 
 // For makespan: passes over the plan found in which robots get earlier paths.
 constexpr std::uint32_t kPolishPasses = 2;
+constexpr const char* kName = "joint";
 // Numbers of states and hash slots take 32 bits.
 constexpr std::uint64_t kMostStates = 1000000000;
+
+SolverTraits traitsOfJoint() {
+  SolverTraits traits;
+  traits.complete = true;
+  traits.optimal_at_one = true;
+  traits.small_groups_only = true;
+  // Some hundredths of a second: joint moves are many times as fast as states of paths.
+  traits.small_knot_expansions = 1000000;
+  return traits;
+}
 
 /// Why there is no plan.
 void explainFailure(JointGroups::Outcome outcome, std::uint32_t robots,
@@ -42,7 +53,8 @@ void explainFailure(JointGroups::Outcome outcome, std::uint32_t robots,
 
 }  // namespace
 
-JointSolver::JointSolver(const SolverOptions& options) : settings_(new JointSettings) {
+JointSolver::JointSolver(const SolverOptions& options)
+    : Solver(kName, traitsOfJoint()), settings_(new JointSettings) {
   settings_->objective = options.objective;
   settings_->expansion_limit = options.expansion_limit;
   const OptionValues values(options.values);
@@ -57,15 +69,22 @@ JointSolver::~JointSolver() = default;
 
 SolverInfo JointSolver::info() {
   const JointSettings defaults;
-  return {"joint",
-          "search over joint states: optimal with proof, for few robots in each other's way",
-          {{"states", std::to_string(defaults.states),
-            "joint states that a group of robots may meet before the search gives up; about 80 "
-            "bytes each"}},
-          [](const SolverOptions& options) { return std::make_unique<JointSolver>(options); }};
+  SolverInfo info;
+  info.name = kName;
+  info.description =
+      "search over joint states: optimal with proof, for few robots in each other's way";
+  info.traits = traitsOfJoint();
+  info.options = {
+      {"states", std::to_string(defaults.states),
+       "joint states that a group of robots may meet before the search gives up; about 80 "
+       "bytes each"}};
+  info.make = [](const SolverOptions& options) { return std::make_unique<JointSolver>(options); };
+  return info;
 }
 
-SolveResult JointSolver::solve(const Instance& instance, const Deadline& deadline) const {
+SolveResult JointSolver::run(const SolveRequest& request) const {
+  const Instance& instance = request.instance;
+  const Deadline& deadline = request.deadline;
   if (const auto robot = findCutOffRobot(instance)) return cutOffResult(*robot);
   SolveResult result;
   result.lower_bound = lowerBound(instance, settings_->objective);
@@ -92,7 +111,7 @@ SolveResult JointSolver::solve(const Instance& instance, const Deadline& deadlin
     result.plan =
         replanSingly(instance, *std::move(result.plan), {kPolishPasses, 1, nullptr}, deadline);
   }
-  certifyByLowerBound(result, settings_->objective, "joint");
+  certifyByLowerBound(result, settings_->objective, kName);
   return result;
 }
 

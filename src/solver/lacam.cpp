@@ -26,6 +26,17 @@ constexpr double kPolishEffort = 0.5;
 constexpr double kMostPolishEffort = 4;
 constexpr double kDear = 1.7;
 
+constexpr const char* kName = "lacam";
+
+SolverTraits traitsOfLacam() {
+  SolverTraits traits;
+  traits.complete = true;
+  traits.loose_plans = true;
+  traits.uses_threads = true;
+  traits.fallback_rank = 3;
+  return traits;
+}
+
 SolveResult interrupted(const Deadline& deadline) {
   SolveResult result;
   result.termination = interruptionOf(deadline);
@@ -49,8 +60,8 @@ std::optional<SolveResult> refuse(const Instance& instance, const LacamSettings&
 }
 
 /// Gives robots earlier paths until passes, expansions or time run out. The plan stays valid.
-void polish(const Instance& instance, const LacamSettings& settings, const Deadline& deadline,
-            SolveResult& result) {
+void polish(const SolveRequest& request, const LacamSettings& settings, SolveResult& result) {
+  const Instance& instance = request.instance;
   const auto found = static_cast<double>(result.low_level_expansions);
   std::uint64_t cost = sumOfCostsOf(*result.plan);
   const double dear = kDear * static_cast<double>(sumOfCostsLowerBound(instance));
@@ -65,9 +76,9 @@ void polish(const Instance& instance, const LacamSettings& settings, const Deadl
   if (!go_on(0, 0)) return;
   ReplanEffort effort;
   effort.passes = settings.polish;
-  effort.threads = settings.threads;
+  effort.threads = std::max(1U, request.threads);
   effort.go_on = go_on;
-  result.plan = replanSingly(instance, *std::move(result.plan), effort, deadline);
+  result.plan = replanSingly(instance, *std::move(result.plan), effort, request.deadline);
   // Who waited for robots that have earlier paths now need not wait any longer.
   result.plan = compact(*result.plan, instance.graph().size());
 }
@@ -94,12 +105,12 @@ void reportFailure(LacamSearch::Outcome outcome, const LacamSettings& settings,
 
 }  // namespace
 
-LacamSolver::LacamSolver(const SolverOptions& options) : settings_(new LacamSettings) {
+LacamSolver::LacamSolver(const SolverOptions& options)
+    : Solver(kName, traitsOfLacam()), settings_(new LacamSettings) {
   LacamSettings& settings = *settings_;
   settings.objective = options.objective;
   settings.seed = options.seed;
   settings.expansion_limit = options.expansion_limit;
-  settings.threads = std::max(1U, options.threads);
   const OptionValues values(options.values);
   settings.check = values.flag("check", settings.check);
   settings.guidance = values.count("guidance", settings.guidance);
@@ -114,24 +125,31 @@ LacamSolver::~LacamSolver() = default;
 SolverInfo LacamSolver::info() {
   const LacamSettings defaults;
   const auto flag = [](bool value) { return std::string(value ? "true" : "false"); };
-  return {
-      "lacam",
-      "search over configurations made by PIBT: fast, complete, also where hardly a cell is free",
-      {{"check", flag(defaults.check), "ask first whether the rules of exchange allow a plan"},
-       {"guidance", std::to_string(defaults.guidance),
-        "rounds in which robots choose scattered paths to follow; 0: no guidance"},
-       {"margin", std::to_string(defaults.margin),
-        "steps that a scattered path may be longer than the shortest"},
-       {"swap", flag(defaults.swap), "robots that block each other in corridors change places"},
-       {"polish", std::to_string(defaults.polish),
-        "passes over the plan found that give robots earlier paths, for half the search's "
-        "expansions, or four times these while the plan costs far more than its bound"},
-       {"memory", std::to_string(defaults.memory),
-        "MiB that configurations may take before the search gives up"}},
-      [](const SolverOptions& options) { return std::make_unique<LacamSolver>(options); }};
+  SolverInfo info;
+  info.name = kName;
+  info.description =
+      "search over configurations made by PIBT: fast, complete, also where hardly a cell is free";
+  info.traits = traitsOfLacam();
+  info.lean_values = {{"polish", "0"}};
+  info.options = {
+      {"check", flag(defaults.check), "ask first whether the rules of exchange allow a plan"},
+      {"guidance", std::to_string(defaults.guidance),
+       "rounds in which robots choose scattered paths to follow; 0: no guidance"},
+      {"margin", std::to_string(defaults.margin),
+       "steps that a scattered path may be longer than the shortest"},
+      {"swap", flag(defaults.swap), "robots that block each other in corridors change places"},
+      {"polish", std::to_string(defaults.polish),
+       "passes over the plan found that give robots earlier paths, for half the search's "
+       "expansions, or four times these while the plan costs far more than its bound"},
+      {"memory", std::to_string(defaults.memory),
+       "MiB that configurations may take before the search gives up"}};
+  info.make = [](const SolverOptions& options) { return std::make_unique<LacamSolver>(options); };
+  return info;
 }
 
-SolveResult LacamSolver::solve(const Instance& instance, const Deadline& deadline) const {
+SolveResult LacamSolver::run(const SolveRequest& request) const {
+  const Instance& instance = request.instance;
+  const Deadline& deadline = request.deadline;
   if (auto refusal = refuse(instance, *settings_, deadline)) return *std::move(refusal);
   SolveResult result;
   result.lower_bound = lowerBound(instance, settings_->objective);
@@ -145,8 +163,8 @@ SolveResult LacamSolver::solve(const Instance& instance, const Deadline& deadlin
   }
   result.termination = Termination::kSolved;
   result.plan = compact(search.plan(), instance.graph().size());
-  polish(instance, *settings_, deadline, result);
-  certifyByLowerBound(result, settings_->objective, "lacam");
+  polish(request, *settings_, result);
+  certifyByLowerBound(result, settings_->objective, kName);
   return result;
 }
 

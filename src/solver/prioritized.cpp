@@ -26,12 +26,27 @@ constexpr std::uint32_t kSlack = 5;
 constexpr int kHorizons = 6;
 constexpr std::uint32_t kLeastGrowth = 5;
 
+constexpr const char* kName = "prioritized";
+
+SolverTraits traitsOfPrioritized() {
+  SolverTraits traits;
+  traits.uses_threads = true;
+  traits.fallback_rank = 2;
+  traits.keeps_step_table = true;
+  traits.two_thread_gain = 1.35;
+  return traits;
+}
+
 /// One run of the solver.
 class PrioritizedRun {
  public:
-  PrioritizedRun(const Instance& instance, const PrioritizedSolver::Settings& settings,
+  PrioritizedRun(const SolveRequest& request, const PrioritizedSolver::Settings& settings,
                  const SolverOptions& options, Effort& effort)
-      : instance_(instance), settings_(settings), options_(options), effort_(effort) {}
+      : instance_(request.instance),
+        threads_(std::max(1U, request.threads)),
+        settings_(settings),
+        options_(options),
+        effort_(effort) {}
 
   /// @return whether plan() is valid.
   bool run();
@@ -44,6 +59,7 @@ class PrioritizedRun {
   bool repair(const std::vector<std::uint32_t>& left_over, std::uint32_t horizon);
 
   const Instance& instance_;
+  const std::uint32_t threads_;
   const PrioritizedSolver::Settings& settings_;
   const SolverOptions& options_;
   Effort& effort_;
@@ -57,7 +73,7 @@ bool PrioritizedRun::run() {
   const std::uint32_t horizon = makespanLowerBound(instance_) + slack;
   RandomEngine engine(options_.seed);
   Placement placement(instance_, makeOrder(instance_, settings_.order, engine), options_.seed,
-                      std::max(1U, options_.threads));
+                      threads_);
   Placement::Effort effort;
   effort.patience = Placement::kNoLimit;
   effort.expansion_limit = options_.expansion_limit;
@@ -98,7 +114,7 @@ bool PrioritizedRun::repair(const std::vector<std::uint32_t>& left_over, std::ui
 void PrioritizedRun::polish() {
   ReplanEffort effort;
   effort.passes = settings_.polish;
-  effort.threads = std::max(1U, options_.threads);
+  effort.threads = threads_;
   effort.go_on = [this](std::uint64_t expansions, std::uint64_t) {
     return effort_.spend(expansions, false);
   };
@@ -107,7 +123,8 @@ void PrioritizedRun::polish() {
 
 }  // namespace
 
-PrioritizedSolver::PrioritizedSolver(const SolverOptions& options) : options_(options) {
+PrioritizedSolver::PrioritizedSolver(const SolverOptions& options)
+    : Solver(kName, traitsOfPrioritized()), options_(options) {
   const OptionValues values(options.values);
   settings_.order = values.choice("order", settings_.order, robotOrders());
   settings_.demotions = values.count("demotions", settings_.demotions);
@@ -118,25 +135,32 @@ PrioritizedSolver::PrioritizedSolver(const SolverOptions& options) : options_(op
 
 SolverInfo PrioritizedSolver::info() {
   const Settings defaults;
-  return {
-      "prioritized",
-      "prioritised planning with demotion and repair: fast, incomplete",
-      {{"order", defaults.order, "shortest_first, longest_first, random or given"},
-       {"demotions", std::to_string(defaults.demotions),
-        "how often a robot that is in the way of another may be planned again after it"},
-       {"repair", defaults.repair ? "true" : "false",
-        "let robots that find no path collide and replan groups of them until nobody does"},
-       {"patience", std::to_string(defaults.patience),
-        "groups a robot without progress before the repair allows longer paths"},
-       {"polish", std::to_string(defaults.polish),
-        "passes over the plan found that give robots earlier paths"}},
-      [](const SolverOptions& options) { return std::make_unique<PrioritizedSolver>(options); }};
+  SolverInfo info;
+  info.name = kName;
+  info.description = "prioritised planning with demotion and repair: fast, incomplete";
+  info.traits = traitsOfPrioritized();
+  info.options = {
+      {"order", defaults.order, "shortest_first, longest_first, random or given"},
+      {"demotions", std::to_string(defaults.demotions),
+       "how often a robot that is in the way of another may be planned again after it"},
+      {"repair", defaults.repair ? "true" : "false",
+       "let robots that find no path collide and replan groups of them until nobody does"},
+      {"patience", std::to_string(defaults.patience),
+       "groups a robot without progress before the repair allows longer paths"},
+      {"polish", std::to_string(defaults.polish),
+       "passes over the plan found that give robots earlier paths"}};
+  info.make = [](const SolverOptions& options) {
+    return std::make_unique<PrioritizedSolver>(options);
+  };
+  return info;
 }
 
-SolveResult PrioritizedSolver::solve(const Instance& instance, const Deadline& deadline) const {
+SolveResult PrioritizedSolver::run(const SolveRequest& request) const {
+  const Instance& instance = request.instance;
+  const Deadline& deadline = request.deadline;
   if (const auto robot = findCutOffRobot(instance)) return cutOffResult(*robot);
   Effort effort(options_.expansion_limit, deadline);
-  PrioritizedRun run(instance, settings_, options_, effort);
+  PrioritizedRun run(request, settings_, options_, effort);
   SolveResult result;
   result.lower_bound = lowerBound(instance, options_.objective);
   const bool planned = run.run();
@@ -147,7 +171,7 @@ SolveResult PrioritizedSolver::solve(const Instance& instance, const Deadline& d
   if (planned) {
     result.termination = Termination::kSolved;
     result.plan = run.plan();
-    certifyByLowerBound(result, options_.objective, "prioritized");
+    certifyByLowerBound(result, options_.objective, kName);
   } else if (effort.stopped()) {
     result.termination = interruptionOf(deadline);
   } else {

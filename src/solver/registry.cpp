@@ -39,6 +39,12 @@ std::vector<std::string> SolverRegistry::names() const {
   return names;
 }
 
+SolverTable SolverRegistry::traits() const {
+  SolverTable table;
+  for (const auto& [name, info] : solvers_) table[name] = info.traits;
+  return table;
+}
+
 const SolverInfo& SolverRegistry::info(const std::string& name) const {
   const auto found = solvers_.find(name);
   if (found == solvers_.end()) {
@@ -51,6 +57,10 @@ const SolverInfo& SolverRegistry::info(const std::string& name) const {
 std::unique_ptr<Solver> SolverRegistry::create(const std::string& name,
                                                const SolverOptions& options) const {
   const SolverInfo& solver = info(name);
+  if (!plansFor(solver.traits, options.objective)) {
+    throw OptionError("solver " + quote(name) + " does not plan for " +
+                      toString(options.objective));
+  }
   for (const auto& [option, value] : options.values) {
     const bool known =
         std::any_of(solver.options.begin(), solver.options.end(),

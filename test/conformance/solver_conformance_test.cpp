@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "solver/available/available_solvers.h"
+#include "split_mapf/core/error.h"
 #include "split_mapf/core/validate.h"
 #include "support/ascii_grid.h"
 #include "support/oracle_cases.h"
@@ -77,8 +78,27 @@ class SolverConformance : public ::testing::TestWithParam<std::tuple<std::string
   void expectCost(const Instance& instance, std::uint64_t optimum) const {
     const SolveResult result = makeSolver(1)->solve(instance, Deadline(kPatienceSec));
     expectHonest(instance, result, optimum);
-    if (result.termination == Termination::kNoPlanFound) return;
+    if (!traits().complete && result.termination == Termination::kNoPlanFound) return;
     ASSERT_EQ(result.termination, Termination::kSolved);
+    if (!traits().optimal_at_one) return;
+    EXPECT_EQ(costOf(*result.plan, objective()), optimum);
+    EXPECT_TRUE(result.optimal);
+  }
+
+  const SolverTraits& traits() const {
+    return availableSolvers().info(std::get<0>(GetParam())).traits;
+  }
+  /// Expects that the request is refused by the solver's name, or is taken.
+  void expectTaken(bool taken, const SolveRequest& request) const {
+    try {
+      const SolveResult result = makeSolver()->solve(request);
+      EXPECT_TRUE(taken);
+      EXPECT_EQ(result.termination, Termination::kSolved) << result.message;
+    } catch (const OptionError& error) {
+      EXPECT_FALSE(taken) << error.what();
+      EXPECT_NE(std::string(error.what()).find("'" + std::get<0>(GetParam()) + "'"),
+                std::string::npos);
+    }
   }
 };
 
@@ -97,6 +117,38 @@ TEST_P(SolverConformance, IsHonestOnSolvableInstances) {
     if (HasFailure()) return;
   }
   EXPECT_GT(solved, 200) << "a suite that nothing is solved in shows little";
+}
+
+TEST_P(SolverConformance, BearsTheNameAndTheTraitsItIsRegisteredWith) {
+  const auto solver = makeSolver();
+  EXPECT_EQ(solver->name(), std::get<0>(GetParam()));
+  const auto texts = [](const SolverTraits& t) {
+    return std::make_tuple(t.complete, t.optimal_at_one, t.makespan, t.sum_of_costs, t.loose_plans,
+                           t.anytime, t.takes_known, t.takes_reserved, t.uses_threads,
+                           t.fallback_rank, t.small_groups_only, t.keeps_step_table,
+                           t.two_thread_gain, t.small_knot_expansions);
+  };
+  EXPECT_EQ(texts(solver->traits()), texts(traits()));
+}
+
+TEST_P(SolverConformance, RefusesByNameWhatItDoesNotTake) {
+  const Instance instance = instanceFromAscii({"a..", "b.."}, {"..a", "..b"});
+  const Plan known = *makeSolver()->solve(instance, Deadline(kPatienceSec)).plan;
+  SolveRequest request(instance, Deadline(kPatienceSec));
+  request.known = &known;
+  expectTaken(traits().takes_known, request);
+  request.known = nullptr;
+  const Reservations none;
+  request.reserved = &none;
+  expectTaken(true, request);
+  const Instance tall = instanceFromAscii({"a..", "b..", "..."}, {"..a", "..b", "..."});
+  const Reservations reserved(tall.sharedGrid(), {Path(4, tall.grid().vertexAt({1, 2}))});
+  SolveRequest around(tall, Deadline(kPatienceSec));
+  around.reserved = &reserved;
+  expectTaken(traits().takes_reserved, around);
+  SolveRequest listening(instance, Deadline(kPatienceSec));
+  listening.on_better = [&](const Plan& plan) { EXPECT_TRUE(validate(instance, plan).empty()); };
+  expectTaken(traits().anytime, listening);
 }
 
 TEST_P(SolverConformance, IsHonestOnUnsolvableInstances) {

@@ -29,7 +29,7 @@ AutoQuestion question(std::uint32_t robots, std::uint32_t threads) {
   question.features.largest_group = 1;
   question.threads = threads;
   question.solver = "auto";
-  question.solvers = {"quick", "rough", "sturdy", "hopeless"};
+  question.solvers = {{"quick", {}}, {"rough", {}}, {"sturdy", {}}, {"hopeless", {}}};
   question.split = "auto";
   return question;
 }
@@ -40,9 +40,9 @@ TEST(AutoChoice, TheSoonestAndOfThoseAboutAsSoonTheBest) {
   EXPECT_EQ(chooseMethod(question(10, 1), model).split, "none");
   EXPECT_EQ(chooseMethod(question(1000, 1), model).solver, "sturdy");
   AutoQuestion without = question(1000, 1);
-  without.solvers = {"quick", "rough", "hopeless"};
+  without.solvers = {{"quick", {}}, {"rough", {}}, {"hopeless", {}}};
   EXPECT_EQ(chooseMethod(without, model).solver, "rough");
-  without.solvers = {"hopeless"};
+  without.solvers = {{"hopeless", {}}};
   EXPECT_EQ(chooseMethod(without, model).solver, "hopeless");
 }
 
@@ -64,7 +64,7 @@ TEST(AutoChoice, ALoosePlanBeforeRefinementWhereRobotsMeetHeadOn) {
 )");
   AutoQuestion asked = question(100, 1);
   asked.objective = Objective::kSumOfCosts;
-  asked.solvers = {"tight", "lacam"};
+  asked.solvers = {{"tight", {}}, {"lacam", builtinSolvers().info("lacam").traits}};
   asked.refines = true;
   asked.features.head_on = 0.1;
   EXPECT_EQ(chooseMethod(asked, model).solver, "tight") << "far sooner";
@@ -90,7 +90,7 @@ TEST(AutoChoice, TheSolverDoesNotDependOnTheThreads) {
 )");
   for (const std::uint32_t threads : {1U, 2U, 4U, 32U}) {
     AutoQuestion asked = question(100, threads);
-    asked.solvers = {"conflict_optimizer", "lacam"};
+    asked.solvers = builtinSolvers().traits();
     EXPECT_EQ(chooseMethod(asked, model).solver, "lacam") << threads;
   }
 }
@@ -118,7 +118,7 @@ TEST(AutoChoice, TheLastResortHasNobodyToYieldTo) {
      log_excess: [-1, 0, 0, 0, 0, 0, 0]}
 )");
   AutoQuestion asked = question(100, 1);
-  asked.solvers = {"lacam"};
+  asked.solvers = {{"lacam", builtinSolvers().info("lacam").traits}};
   EXPECT_EQ(chooseMethod(asked, model).turn, 0U);
 }
 
@@ -139,7 +139,7 @@ TEST(AutoChoice, KeepsWhatWasAskedFor) {
 TEST(AutoChoice, NeverASolverThatIsNotThere) {
   const CostModel model(kModel);
   AutoQuestion asked = question(10, 1);
-  asked.solvers = {"sturdy"};
+  asked.solvers = {{"sturdy", {}}};
   EXPECT_EQ(chooseMethod(asked, model).solver, "sturdy");
 }
 

@@ -37,8 +37,9 @@ TEST(ConflictOptimizer, ThreadsDoNotChangeThePlan) {
     const SolveResult alone = ConflictOptimizerSolver(options).solve(instance, Deadline(20));
     ASSERT_TRUE(alone.plan);
     for (const std::uint32_t threads : {2U, 8U}) {
-      options.threads = threads;
-      const SolveResult shared = ConflictOptimizerSolver(options).solve(instance, Deadline(20));
+      SolveRequest request(instance, Deadline(20));
+      request.threads = threads;
+      const SolveResult shared = ConflictOptimizerSolver(options).solve(request);
       ASSERT_TRUE(shared.plan);
       EXPECT_EQ(shared.plan->paths, alone.plan->paths) << threads << " threads";
       EXPECT_EQ(shared.low_level_expansions, alone.low_level_expansions);

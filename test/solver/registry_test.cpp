@@ -38,8 +38,24 @@ TEST(Registry, RefusesOptionValuesOutOfRange) {
   SolverOptions options;
   options.values["order"] = "upside_down";
   EXPECT_THROW(builtinSolvers().create("prioritized", options), OptionError);
-  options.values = {{"restarts", "-1"}};
-  EXPECT_THROW(builtinSolvers().create("prioritized", options), OptionError);
+  options.values = {{"demotions", "-1"}};
+  const std::string message =
+      messageOf<OptionError>([&] { builtinSolvers().create("prioritized", options); });
+  EXPECT_NE(message.find("-1"), std::string::npos) << message;
+}
+
+TEST(Registry, RefusesAnObjectiveThatASolverDoesNotPlanFor) {
+  SolverInfo info = builtinSolvers().info("ecbs");
+  info.name = "sums";
+  info.traits.makespan = false;
+  SolverRegistry registry;
+  registry.add(info);
+  SolverOptions options;
+  options.objective = Objective::kSumOfCosts;
+  EXPECT_NO_THROW(registry.create("sums", options));
+  options.objective = Objective::kMakespan;
+  const std::string message = messageOf<OptionError>([&] { registry.create("sums", options); });
+  EXPECT_EQ(message, "solver 'sums' does not plan for makespan");
 }
 
 TEST(Registry, EveryListedDefaultIsAccepted) {

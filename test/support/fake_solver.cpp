@@ -13,23 +13,26 @@ namespace {
 
 class FakeSolver : public Solver {
  public:
-  explicit FakeSolver(FakeSolve solve) : solve_(std::move(solve)) {}
-  SolveResult solve(const Instance& instance, const Deadline& deadline) const override {
-    return solve_(instance, deadline);
-  }
+  FakeSolver(const std::string& name, const SolverTraits& traits, FakeSolve solve)
+      : Solver(name, traits), solve_(std::move(solve)) {}
 
  private:
+  SolveResult run(const SolveRequest& request) const override {
+    return solve_(request.instance, request.deadline);
+  }
+
   FakeSolve solve_;
 };
 
 }  // namespace
 
-SolverInfo fakeSolver(const std::string& name, FakeSolve solve) {
+SolverInfo fakeSolver(const std::string& name, FakeSolve solve, const SolverTraits& traits) {
   SolverInfo info;
   info.name = name;
   info.description = "answers as the test says";
-  info.make = [solve = std::move(solve)](const SolverOptions&) {
-    return std::make_unique<FakeSolver>(solve);
+  info.traits = traits;
+  info.make = [name, traits, solve = std::move(solve)](const SolverOptions&) {
+    return std::make_unique<FakeSolver>(name, traits, solve);
   };
   return info;
 }

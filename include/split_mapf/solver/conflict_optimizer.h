@@ -14,7 +14,7 @@ namespace split_mapf {
 /// Source: Crombez et al. (team Shadoks), SoCG 2021. Deviations: safe intervals with evictions
 /// instead of a table over cells and steps, so memory does not grow with the horizon; longer
 /// horizons keep what is placed; for sum of costs the horizon starts with some slack; robots are
-/// searched for in batches, side by side (SolverOptions::threads), see docs/algorithms.md.
+/// searched for in batches, side by side (SolveRequest::threads), see docs/algorithms.md.
 /// Incomplete: it may say kNoPlanFound on a solvable instance, never kUnsolvable (a robot that is
 /// cut off excepted). Cost: about one search a robot where there is room.
 class ConflictOptimizerSolver : public Solver {
@@ -28,14 +28,14 @@ class ConflictOptimizerSolver : public Solver {
   };
   /// @throws OptionError for an option value out of range.
   explicit ConflictOptimizerSolver(const SolverOptions& options);
-  SolveResult solve(const Instance& instance, const Deadline& deadline) const override;
   static SolverInfo info();
 
  private:
+  SolveResult run(const SolveRequest& request) const override;
+
   Objective objective_;
   std::uint64_t seed_;
   std::uint64_t expansion_limit_;
-  std::uint32_t threads_;
   Settings settings_;
 };
 

@@ -27,11 +27,12 @@ class EcbsSolver : public Solver {
   /// @throws OptionError for a suboptimality below 1 or an option value out of range.
   explicit EcbsSolver(const SolverOptions& options);
   ~EcbsSolver() override;
-  /// Memory: one path and the list of conflicting pairs a node of the constraint tree.
-  SolveResult solve(const Instance& instance, const Deadline& deadline) const override;
   static SolverInfo info();
 
  private:
+  /// Memory: one path and the list of conflicting pairs a node of the constraint tree.
+  SolveResult run(const SolveRequest& request) const override;
+
   std::unique_ptr<EcbsSettings> settings_;
 };
 

@@ -31,12 +31,13 @@ class IlpSolver : public Solver {
   };
   /// @throws OptionError for an option value out of range.
   explicit IlpSolver(const SolverOptions& options);
-  /// Memory: at most about Settings::memory_mb; a model that would exceed it is refused with its
-  /// size.
-  SolveResult solve(const Instance& instance, const Deadline& deadline) const override;
   static SolverInfo info();
 
  private:
+  /// Memory: at most about Settings::memory_mb; a model that would exceed it is refused with its
+  /// size.
+  SolveResult run(const SolveRequest& request) const override;
+
   Objective objective_;
   std::uint64_t seed_;
   std::uint64_t expansion_limit_;

@@ -23,13 +23,14 @@ class JointSolver : public Solver {
   /// @throws OptionError for an option value out of range.
   explicit JointSolver(const SolverOptions& options);
   ~JointSolver() override;
-  /// Counts as expansions: joint moves. Ends with kNoPlanFound, and a proved lower bound, when one
-  /// group has met as many joint states as the option `states` allows. Memory: about 80 bytes and 2
-  /// to 4 bytes a robot for each of them, of one group at a time.
-  SolveResult solve(const Instance& instance, const Deadline& deadline) const override;
   static SolverInfo info();
 
  private:
+  /// Counts as expansions: joint moves. Ends with kNoPlanFound, and a proved lower bound, when one
+  /// group has met as many joint states as the option `states` allows. Memory: about 80 bytes and 2
+  /// to 4 bytes a robot for each of them, of one group at a time.
+  SolveResult run(const SolveRequest& request) const override;
+
   std::unique_ptr<JointSettings> settings_;
 };
 

@@ -24,12 +24,13 @@ class LacamSolver : public Solver {
   /// @throws OptionError for an option value out of range.
   explicit LacamSolver(const SolverOptions& options);
   ~LacamSolver() override;
-  /// Counts as expansions: the robots that PIBT moves, and the cells that guidance and polish
-  /// expand. Memory: 4 to 8 bytes a robot and configuration, at most what the option `memory` says.
-  SolveResult solve(const Instance& instance, const Deadline& deadline) const override;
   static SolverInfo info();
 
  private:
+  /// Counts as expansions: the robots that PIBT moves, and the cells that guidance and polish
+  /// expand. Memory: 4 to 8 bytes a robot and configuration, at most what the option `memory` says.
+  SolveResult run(const SolveRequest& request) const override;
+
   std::unique_ptr<LacamSettings> settings_;
 };
 

@@ -34,10 +34,11 @@ class PrioritizedSolver : public Solver {
   };
   /// @throws OptionError for an option value out of range.
   explicit PrioritizedSolver(const SolverOptions& options);
-  SolveResult solve(const Instance& instance, const Deadline& deadline) const override;
   static SolverInfo info();
 
  private:
+  SolveResult run(const SolveRequest& request) const override;
+
   SolverOptions options_;
   Settings settings_;
 };

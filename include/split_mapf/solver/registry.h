@@ -21,10 +21,15 @@ struct OptionInfo {
 struct SolverInfo {
   std::string name;
   std::string description;
+  SolverTraits traits;  ///< of every solver that `make` builds
   std::vector<OptionInfo> options;
+  /// Values of options with which it keeps no table of a bit a cell and step.
+  std::map<std::string, std::string> lean_values;
   /// Builds a solver. @throws OptionError for a value out of range.
   std::function<std::unique_ptr<Solver>(const SolverOptions&)> make;
 };
+
+using SolverTable = std::map<std::string, SolverTraits>;
 
 /// Solvers by name. Filled once, then only read: reading is thread-safe.
 class SolverRegistry {
@@ -33,9 +38,12 @@ class SolverRegistry {
   void add(SolverInfo info);
   /// In order of names.
   std::vector<std::string> names() const;
+  /// Of all solvers, by name.
+  SolverTable traits() const;
   /// @throws UnknownSolverError listing what there is.
   const SolverInfo& info(const std::string& name) const;
-  /// Builds a solver, after checking that every option is one that the solver offers.
+  /// Builds a solver, after checking that it plans for the objective and that every option is one
+  /// that it offers.
   /// @throws UnknownSolverError, OptionError.
   std::unique_ptr<Solver> create(const std::string& name, const SolverOptions& options) const;
 

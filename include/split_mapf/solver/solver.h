@@ -4,12 +4,15 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/objective.h"
 #include "split_mapf/core/plan.h"
 #include "split_mapf/core/termination.h"
+#include "split_mapf/solver/solve_request.h"
+#include "split_mapf/solver/solver_traits.h"
 
 namespace split_mapf {
 
@@ -33,20 +36,38 @@ struct SolverOptions {
   /// Expanded states of single-robot searches after which the solver gives up with kNoPlanFound; 0:
   /// none. Unlike a deadline it cuts the search at the same place on every machine.
   std::uint64_t expansion_limit = 0;
-  /// Threads that one call may use, >= 1. The plan does not depend on it.
-  std::uint32_t threads = 1;
   std::map<std::string, std::string> values;  ///< the solver's own options, by name
 };
 
 /// A planner for whole instances. Re-entrant: one object may solve several instances at once from
-/// several threads.
+/// several threads. A solver of one's own derives from this, says in its traits what it can be
+/// asked for, and overrides run().
 class Solver {
  public:
   virtual ~Solver() = default;
-  /// Plans the instance. Polls `deadline`. The same instance and options give the same plan unless
-  /// the deadline cut the search. Infeasibility, time-out and cancellation are results, never
-  /// exceptions.
-  virtual SolveResult solve(const Instance& instance, const Deadline& deadline) const = 0;
+  const std::string& name() const { return name_; }
+  const SolverTraits& traits() const { return traits_; }
+
+  /// Plans. The same request and options give the same plan unless the deadline cut the search.
+  /// Infeasibility, time-out and cancellation are results, never exceptions; so are reservations
+  /// that hold a robot's start or goal (kUnsolvable).
+  /// @throws OptionError naming the solver and what it does not take, before any work; InputError
+  /// when the known plan is not valid.
+  SolveResult solve(const SolveRequest& request) const;
+  /// The same without anything but a deadline.
+  SolveResult solve(const Instance& instance, const Deadline& deadline) const {
+    return solve(SolveRequest(instance, deadline));
+  }
+
+ protected:
+  Solver(std::string name, const SolverTraits& traits) : name_(std::move(name)), traits_(traits) {}
+
+ private:
+  /// @pre the request holds nothing that the traits exclude; its known plan is valid.
+  virtual SolveResult run(const SolveRequest& request) const = 0;
+
+  const std::string name_;
+  const SolverTraits traits_;
 };
 
 /// The lower bound that shortest paths give for an objective [steps]. @pre no robot is cut off.

@@ -11,7 +11,6 @@ struct LacamSettings {
   Objective objective = Objective::kMakespan;
   std::uint64_t seed = 0;
   std::uint64_t expansion_limit = 0;  ///< as in SolverOptions
-  std::uint32_t threads = 1;          ///< as there, >= 1
 
   bool check = true;           ///< ask core/solvability first
   std::uint64_t guidance = 4;  ///< rounds in which robots choose scattered paths; 0: no guidance

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "split_mapf/core/deadline.h"
+#include "split_mapf/core/instance.h"
+#include "split_mapf/core/plan.h"
+#include "split_mapf/core/reservations.h"
+
+namespace split_mapf {
+
+/// Called with each better plan while a solver searches, from the thread that called it; the
+/// reference holds during the call, which the search waits for.
+using PlanSink = std::function<void(const Plan&)>;
+
+/// One question to a solver. Everything it points to outlives the call.
+struct SolveRequest {
+  SolveRequest(const Instance& to_solve, Deadline until = {})
+      : instance(to_solve), deadline(std::move(until)) {}
+
+  const Instance& instance;
+  Deadline deadline;  ///< polled by every loop that can run long
+  /// Threads lent to the call, the caller's own among them, >= 1. The plan does not depend on them.
+  std::uint32_t threads = 1;
+  /// A valid plan to begin at, which keeps `reserved`; null: none is known. The answer costs no
+  /// more.
+  const Plan* known = nullptr;
+  /// What the plan has to keep clear of; null: nothing is reserved.
+  const Reservations* reserved = nullptr;
+  /// Gets each better plan on the way; the answer's own may be the last of them. Null: nobody asks.
+  PlanSink on_better;
+};
+
+}  // namespace split_mapf
