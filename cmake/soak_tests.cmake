@@ -15,6 +15,9 @@ endif()
 if(TARGET solver_tests)
   split_mapf_add_soak(lacam solver_tests --gtest_filter=Lacam.FindsAPlanOrProves*)
 endif()
+if(TARGET pipeline_tests)
+  split_mapf_add_soak(reservations pipeline_tests --gtest_filter=Reservations.AreKeptByEvery*)
+endif()
 # Without ilp: a few of so many instances keep it busy for minutes.
 if(TARGET conformance_tests)
   split_mapf_add_soak(conformance

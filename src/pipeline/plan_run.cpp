@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "pipeline/auto_choice.h"
-#include "pipeline/refine.h"
 #include "pipeline/settlement.h"
 #include "pipeline/solver_choice.h"
 #include "pipeline/stage_words.h"
@@ -17,6 +16,7 @@
 #include "split_mapf/core/compaction.h"
 #include "split_mapf/core/validate.h"
 #include "split_mapf/core/wording.h"
+#include "split_mapf/pipeline/refine.h"
 
 namespace split_mapf {
 namespace {

@@ -1,4 +1,4 @@
-#include "pipeline/refine.h"
+#include "split_mapf/pipeline/refine.h"
 
 #include <algorithm>
 #include <array>
@@ -17,6 +17,7 @@
 #include "pipeline/window_descent.h"
 #include "solver/joint/group_search.h"
 #include "solver/search/placement.h"
+#include "solver/search/reserved_paths.h"
 #include "solver/search/retiming.h"
 
 namespace split_mapf {
@@ -46,14 +47,17 @@ class Refinement {
         deadline_(deadline),
         improved_(improved),
         annealing_(deadline),
+        reserved_(instance, options.reserved, deadline),
         settlement_(instance, options.objective, options.lower_bound),
         plan_(std::move(plan)),
         cost_(sumOfCostsOf(plan_)) {
-    if (options.solvers != nullptr) window_solvers_ = windowSolvers(options.solvers->traits());
+    const bool has_windows = options.solvers != nullptr && !reserved_.any();
+    if (has_windows) window_solvers_ = windowSolvers(options.solvers->traits());
   }
 
   Plan run() {
-    while (!deadline_.expired() && !settlement_.isBest(plan_)) {
+    if (reserved_.refusal()) return std::move(plan_);
+    while (!deadline_.expired() && !isBest()) {
       const bool may_descend = mayDescend();
       if (maySettle() && settling_sec_ <= descents_sec_ + search_sec_) {
         timed(settling_sec_, [this] { settle(); });
@@ -71,10 +75,17 @@ class Refinement {
   }
 
  private:
-  bool mayDescend() const {
-    return options_.objective == Objective::kMakespan && !settlement_.isOptimal(plan_);
+  bool isBest() const {
+    return settlement_.isBest(plan_) || (makespanOf(plan_) <= reserved_.makespanBound() &&
+                                         cost_ <= reserved_.lowerBound(Objective::kSumOfCosts));
   }
-  bool maySettle() const { return options_.small_knot && settlement_.isOpen(plan_); }
+  bool mayDescend() const {
+    return options_.objective == Objective::kMakespan && !settlement_.isOptimal(plan_) &&
+           makespanOf(plan_) > reserved_.makespanBound();
+  }
+  bool maySettle() const {
+    return options_.small_knot && !reserved_.any() && settlement_.isOpen(plan_);
+  }
 
   template <typename Work>
   static void timed(double& seconds, Work work) {
@@ -127,7 +138,7 @@ class Refinement {
   /// Each worker tries to make everybody arrive a step earlier; the first to succeed stops the
   /// others.
   std::optional<Plan> descendFrom(const Plan& plan, std::uint64_t patience) {
-    if (makespanOf(plan) <= makespanLowerBound(instance_)) return std::nullopt;
+    if (makespanOf(plan) <= reserved_.makespanBound()) return std::nullopt;
     const auto stop = std::make_shared<StopFlag>(deadline_.stopFlag());
     const Deadline deadline = deadline_.withStop(stop);
     const std::uint32_t horizon = makespanOf(plan) - 1;
@@ -136,7 +147,7 @@ class Refinement {
     std::vector<Executor::Job> jobs(options_.threads);
     for (Executor::Job& job : jobs) {
       job.run = [&, seed = ++descents_ + options_.seed] {
-        Placement placement(instance_, plan, horizon, seed);
+        Placement placement(instance_, plan, horizon, seed, 1, reserved_.paths());
         Placement::Effort effort;
         effort.patience = patience * instance_.robots();
         effort.delayed_one_in = Placement::kDelayedOneIn;
@@ -173,7 +184,7 @@ class Refinement {
   void search() {
     const bool stuck = instance_.robots() < kSmallTeam && in_vain_ >= kRoundsInVain;
     const std::uint32_t turn = stuck ? ++turns_ % 3 : 0;
-    if (turn == 1) return searchGroups();
+    if (turn == 1 && !reserved_.any()) return searchGroups();
     if (turn == 2 && options_.objective == Objective::kSumOfCosts) return searchSooner();
     if (turn == 2 && mayDescend()) return searchLater();
     searchNeighbourhoods();
@@ -181,7 +192,7 @@ class Refinement {
 
   void searchNeighbourhoods() {
     if (workers_.empty()) {
-      placeWaits(instance_.graph().size(), plan_);
+      if (!reserved_.any()) placeWaits(instance_.graph().size(), plan_);
       workers_ = employ(incumbent_, plan_, latestArrival());
     }
     // Between descents there is no telling how much time is left for this.
@@ -253,8 +264,8 @@ class Refinement {
     Workers workers;
     for (std::uint32_t i = 0; i < options_.threads; ++i) {
       const std::uint64_t seed = options_.seed * options_.threads + i;
-      workers.push_back(
-          std::make_unique<RefineWorker>(instance_, *incumbent, latest_arrival, seed));
+      workers.push_back(std::make_unique<RefineWorker>(instance_, *incumbent, latest_arrival, seed,
+                                                       reserved_.paths()));
     }
     return workers;
   }
@@ -278,6 +289,7 @@ class Refinement {
   const Deadline& deadline_;
   const std::function<void(const Plan&)>& improved_;
   const Annealing annealing_;
+  const ReservedPaths reserved_;
   Settlement settlement_;
   Plan plan_;                             // the best
   std::uint64_t cost_;                    // its sum of costs

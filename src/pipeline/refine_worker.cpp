@@ -6,9 +6,10 @@
 namespace split_mapf {
 
 RefineWorker::RefineWorker(const Instance& instance, Incumbent& incumbent,
-                           std::uint32_t latest_arrival, std::uint64_t seed)
+                           std::uint32_t latest_arrival, std::uint64_t seed,
+                           const Reservations* reserved)
     : incumbent_(incumbent),
-      search_(instance, incumbent.plan(), latest_arrival, seed),
+      search_(instance, incumbent.plan(), latest_arrival, seed, {}, reserved),
       version_(incumbent.version()) {}
 
 void RefineWorker::follow() {

@@ -10,12 +10,12 @@
 namespace split_mapf {
 
 /// One thread's part of a refinement: a large-neighbourhood search on its own copy of the plan that
-/// offers what it finds and follows what others found. Nobody arrives after `latest_arrival`. Used
-/// by one thread at a time.
+/// offers what it finds and follows what others found. Nobody arrives after `latest_arrival`, and
+/// reserved paths (null: none) are kept clear of. Used by one thread at a time.
 class RefineWorker {
  public:
   RefineWorker(const Instance& instance, Incumbent& incumbent, std::uint32_t latest_arrival,
-               std::uint64_t seed);
+               std::uint64_t seed, const Reservations* reserved);
   /// Searches until the deadline; ends with the newest version. @param annealing  null: the plan
   /// must not become worse.
   void run(const Deadline& deadline, const Annealing* annealing);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solver/search/placement.h"
+#include "solver/search/reserved_paths.h"
 #include "solver/search/robot_order.h"
 #include "split_mapf/core/option_values.h"
 #include "split_mapf/core/random.h"
@@ -20,6 +21,8 @@ constexpr const char* kName = "conflict_optimizer";
 
 SolverTraits traitsOfConflictOptimizer() {
   SolverTraits traits;
+  traits.takes_known = true;
+  traits.takes_reserved = true;
   traits.uses_threads = true;
   traits.fallback_rank = 1;
   traits.keeps_step_table = true;
@@ -33,6 +36,29 @@ std::vector<std::uint32_t> firstQueue(const Instance& instance, std::uint64_t se
   std::vector<std::uint32_t> queue = makeOrder(instance, "random", engine);
   sortShortestFirst(instance, queue);
   return queue;
+}
+
+/// Everybody waits, or those that arrive after `horizon` in the known plan.
+Placement beginPlacing(const SolveRequest& request, std::uint64_t seed, std::uint32_t horizon,
+                       const Reservations* reserved) {
+  const Instance& instance = request.instance;
+  const std::uint32_t threads = std::max(1U, request.threads);
+  if (request.known == nullptr) {
+    return Placement(instance, firstQueue(instance, seed), seed, threads, reserved);
+  }
+  Plan known = *request.known;
+  trimToArrival(known);
+  return Placement(instance, known, horizon, seed, threads, reserved);
+}
+
+/// Where the search has found nothing better the known plan is the answer.
+void keepKnown(const Plan& known, Objective objective, SolveResult& result) {
+  if (result.plan && costOf(*result.plan, objective) <= costOf(known, objective)) return;
+  result.termination = Termination::kSolved;
+  result.plan = known;
+  trimToArrival(*result.plan);
+  result.message.clear();
+  certifyByLowerBound(result, objective, kName);
 }
 
 }  // namespace
@@ -67,13 +93,20 @@ SolverInfo ConflictOptimizerSolver::info() {
 }
 
 SolveResult ConflictOptimizerSolver::run(const SolveRequest& request) const {
+  const ReservedPaths reserved(request.instance, request.reserved, request.deadline);
+  SolveResult result = reserved.refusal() ? *reserved.refusal() : placeAll(request, reserved);
+  if (request.known != nullptr) keepKnown(*request.known, objective_, result);
+  return result;
+}
+
+SolveResult ConflictOptimizerSolver::placeAll(const SolveRequest& request,
+                                              const ReservedPaths& reserved) const {
   const Instance& instance = request.instance;
   const Deadline& deadline = request.deadline;
   SolveResult result;
-  if (const auto robot = findCutOffRobot(instance)) return cutOffResult(*robot);
-  result.lower_bound = lowerBound(instance, objective_);
-  Placement placement(instance, firstQueue(instance, seed_), seed_, std::max(1U, request.threads));
-  const std::uint32_t bound = makespanLowerBound(instance);
+  result.lower_bound = reserved.lowerBound(objective_);
+  const std::uint32_t bound = reserved.makespanBound();
+  Placement placement = beginPlacing(request, seed_, bound, reserved.paths());
   Placement::Effort effort;
   effort.patience =
       std::max<std::uint64_t>(1, settings_.patience * std::max(kFewRobots, instance.robots()));
@@ -95,6 +128,7 @@ SolveResult ConflictOptimizerSolver::run(const SolveRequest& request) const {
       result.termination = interruptionOf(deadline);
       return result;
     }
+    if (!placement.leftOver().empty()) break;
     result.termination = Termination::kSolved;
     result.plan = placement.plan();
     certifyByLowerBound(result, objective_, kName);

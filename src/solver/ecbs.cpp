@@ -22,6 +22,7 @@ SolverTraits traitsOfEcbs() {
   SolverTraits traits;
   traits.complete = true;
   traits.optimal_at_one = true;
+  traits.takes_reserved = true;
   traits.fallback_rank = 4;
   traits.small_knot_expansions = 50000;  // some hundredths of a second
   return traits;
@@ -92,12 +93,14 @@ SolverInfo EcbsSolver::info() {
 SolveResult EcbsSolver::run(const SolveRequest& request) const {
   const Instance& instance = request.instance;
   const Deadline& deadline = request.deadline;
-  if (const auto robot = findCutOffRobot(instance)) return cutOffResult(*robot);
-  EcbsRun run(instance, *settings_, deadline);
+  const ReservedPaths reserved(instance, request.reserved, deadline);
+  if (reserved.refusal()) return *reserved.refusal();
+  EcbsRun run(instance, *settings_, reserved, deadline);
   SolveResult result = RobotGroups(run).solve();
   if (result.termination == Termination::kSolved) {
     ReplanEffort effort;
     effort.passes = settings_->polish;
+    effort.reserved = reserved.paths();
     effort.go_on = [&run](std::uint64_t expansions, std::uint64_t) {
       run.low_level.count(expansions);
       return !run.low_level.stopped();

@@ -1,6 +1,7 @@
 #include "split_mapf/solver/ilp.h"
 
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -33,8 +34,28 @@ SolverTraits traitsOfIlp() {
   SolverTraits traits;
   traits.complete = true;
   traits.optimal_at_one = true;
+  traits.anytime = true;
+  traits.takes_known = true;
   return traits;
 }
+
+/// Hands plans on, each if it is better than those before.
+class BetterPlans {
+ public:
+  BetterPlans(PlanSink sink, Objective objective) : sink_(std::move(sink)), objective_(objective) {}
+  void offer(const std::optional<Plan>& plan) {
+    if (!sink_ || !plan) return;
+    const std::uint64_t cost = costOf(*plan, objective_);
+    if (cost >= least_) return;
+    least_ = cost;
+    sink_(*plan);
+  }
+
+ private:
+  const PlanSink sink_;
+  const Objective objective_;
+  std::uint64_t least_ = std::numeric_limits<std::uint64_t>::max();
+};
 
 /// What is known before the engine starts.
 SolveResult unsolvable(const SolvabilityVerdict& verdict, const Grid& grid) {
@@ -169,10 +190,22 @@ SolveResult IlpSolver::run(const SolveRequest& request) const {
   effort.expansions = expansion_limit_ * kStatesAnExpansion;
   ilp::Rounding rounding;
   std::optional<Plan> known;
+  if (request.known != nullptr) {
+    known = *request.known;
+    trimToArrival(*known);
+  }
+  BetterPlans better(request.on_better, objective_);
+  better.offer(known);
   if (settings_.heuristic) {
-    known = upper_bound.find(expansion_limit_);
-    rounding = [&upper_bound](const std::vector<ilp::UsedPath>& used, std::uint64_t limit) {
-      return upper_bound.round(used, limit);
+    std::optional<Plan> found = upper_bound.find(expansion_limit_);
+    const bool is_less =
+        found && (!known || costOf(*found, objective_) < costOf(*known, objective_));
+    if (is_less) known = std::move(found);
+    better.offer(known);
+    rounding = [&](const std::vector<ilp::UsedPath>& used, std::uint64_t limit) {
+      std::optional<Plan> rounded = upper_bound.round(used, limit);
+      better.offer(rounded);
+      return rounded;
     };
   }
   const ilp::EngineRun engine = [&](const std::optional<Plan>& better_than,
@@ -189,6 +222,7 @@ SolveResult IlpSolver::run(const SolveRequest& request) const {
           : engine(known, effort);
   const std::string reason = reasonOf(found, deadline, settings_.memory_mb);
   if (!found.plan) found.plan = std::move(known);
+  better.offer(found.plan);
   return conclude(std::move(found), objective_, joint ? "joint" : settings_.engine, reason,
                   deadline);
 }

@@ -10,6 +10,7 @@
 #include "solver/prioritized/repair.h"
 #include "solver/search/placement.h"
 #include "solver/search/replan_singly.h"
+#include "solver/search/reserved_paths.h"
 #include "solver/search/robot_order.h"
 #include "split_mapf/core/option_values.h"
 #include "split_mapf/core/random.h"
@@ -30,6 +31,7 @@ constexpr const char* kName = "prioritized";
 
 SolverTraits traitsOfPrioritized() {
   SolverTraits traits;
+  traits.takes_reserved = true;
   traits.uses_threads = true;
   traits.fallback_rank = 2;
   traits.keeps_step_table = true;
@@ -40,9 +42,11 @@ SolverTraits traitsOfPrioritized() {
 /// One run of the solver.
 class PrioritizedRun {
  public:
-  PrioritizedRun(const SolveRequest& request, const PrioritizedSolver::Settings& settings,
-                 const SolverOptions& options, Effort& effort)
+  PrioritizedRun(const SolveRequest& request, const ReservedPaths& reserved,
+                 const PrioritizedSolver::Settings& settings, const SolverOptions& options,
+                 Effort& effort)
       : instance_(request.instance),
+        reserved_(reserved),
         threads_(std::max(1U, request.threads)),
         settings_(settings),
         options_(options),
@@ -59,6 +63,7 @@ class PrioritizedRun {
   bool repair(const std::vector<std::uint32_t>& left_over, std::uint32_t horizon);
 
   const Instance& instance_;
+  const ReservedPaths& reserved_;
   const std::uint32_t threads_;
   const PrioritizedSolver::Settings& settings_;
   const SolverOptions& options_;
@@ -70,10 +75,10 @@ class PrioritizedRun {
 
 bool PrioritizedRun::run() {
   const std::uint32_t slack = options_.objective == Objective::kMakespan ? 0 : kSlack;
-  const std::uint32_t horizon = makespanLowerBound(instance_) + slack;
+  const std::uint32_t horizon = reserved_.makespanBound() + slack;
   RandomEngine engine(options_.seed);
   Placement placement(instance_, makeOrder(instance_, settings_.order, engine), options_.seed,
-                      threads_);
+                      threads_, reserved_.paths());
   Placement::Effort effort;
   effort.patience = Placement::kNoLimit;
   effort.expansion_limit = options_.expansion_limit;
@@ -94,7 +99,7 @@ bool PrioritizedRun::repair(const std::vector<std::uint32_t>& left_over, std::ui
   for (std::uint32_t robot = 0; robot < instance_.robots(); ++robot) {
     if (!plan_.paths[robot].empty()) table.insert(robot, plan_.paths[robot]);
   }
-  Repair repair(instance_, options_.seed, effort_, table, plan_.paths);
+  Repair repair(instance_, options_.seed, effort_, table, plan_.paths, reserved_.table());
   if (!repair.place(left_over, horizon)) return false;
   const std::uint64_t patience =
       std::max<std::uint64_t>(1, settings_.patience * std::max(kFewRobots, instance_.robots()));
@@ -115,6 +120,7 @@ void PrioritizedRun::polish() {
   ReplanEffort effort;
   effort.passes = settings_.polish;
   effort.threads = threads_;
+  effort.reserved = reserved_.paths();
   effort.go_on = [this](std::uint64_t expansions, std::uint64_t) {
     return effort_.spend(expansions, false);
   };
@@ -156,13 +162,13 @@ SolverInfo PrioritizedSolver::info() {
 }
 
 SolveResult PrioritizedSolver::run(const SolveRequest& request) const {
-  const Instance& instance = request.instance;
   const Deadline& deadline = request.deadline;
-  if (const auto robot = findCutOffRobot(instance)) return cutOffResult(*robot);
+  const ReservedPaths reserved(request.instance, request.reserved, deadline);
+  if (reserved.refusal()) return *reserved.refusal();
   Effort effort(options_.expansion_limit, deadline);
-  PrioritizedRun run(request, settings_, options_, effort);
+  PrioritizedRun run(request, reserved, settings_, options_, effort);
   SolveResult result;
-  result.lower_bound = lowerBound(instance, options_.objective);
+  result.lower_bound = reserved.lowerBound(options_.objective);
   const bool planned = run.run();
   if (!planned && effort.exhausted()) return outOfExpansions(options_.expansion_limit);
   if (planned) run.polish();

@@ -1,4 +1,4 @@
-#include "pipeline/refine.h"
+#include "split_mapf/pipeline/refine.h"
 
 #include <gtest/gtest.h>
 

@@ -7,6 +7,8 @@
 
 namespace split_mapf {
 
+class ReservedPaths;
+
 /// Conflict optimisation: all robots are placed within a fixed horizon, each where it displaces the
 /// robots of the least weight; who is displaced is queued again and weighs more from then on. The
 /// first horizon is the greatest shortest path, so a makespan plan found there is optimal and
@@ -32,6 +34,7 @@ class ConflictOptimizerSolver : public Solver {
 
  private:
   SolveResult run(const SolveRequest& request) const override;
+  SolveResult placeAll(const SolveRequest& request, const ReservedPaths& reserved) const;
 
   Objective objective_;
   std::uint64_t seed_;

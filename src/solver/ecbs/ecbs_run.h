@@ -5,6 +5,7 @@
 #include "solver/ecbs/low_level.h"
 #include "solver/ecbs/settings.h"
 #include "solver/search/path_table.h"
+#include "solver/search/reserved_paths.h"
 #include "split_mapf/core/instance.h"
 
 namespace split_mapf {
@@ -13,16 +14,18 @@ namespace split_mapf {
 struct EcbsRun {
   /// @pre all arguments outlive this object.
   EcbsRun(const Instance& for_instance, const EcbsSettings& with_settings,
-          const Deadline& until_deadline)
+          const ReservedPaths& around_reserved, const Deadline& until_deadline)
       : instance(for_instance),
         settings(with_settings),
+        reserved(around_reserved),
         deadline(until_deadline),
         table(for_instance.graph().size()),
-        low_level(for_instance, with_settings, table, until_deadline),
+        low_level(for_instance, with_settings, table, around_reserved.table(), until_deadline),
         paths(for_instance.robots()) {}
 
   const Instance& instance;
   const EcbsSettings& settings;
+  const ReservedPaths& reserved;
   const Deadline& deadline;
   PathTable table;  ///< holds `paths`
   LowLevel low_level;

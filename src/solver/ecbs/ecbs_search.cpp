@@ -75,7 +75,7 @@ void EcbsSearch::plantRoot(std::vector<Conflict> conflicts) {
     const std::uint32_t cost = lengthOf(run_.paths[robot]);
     const bool makespan = settings_.objective == Objective::kMakespan;
     root.cost = makespan ? std::max<std::uint64_t>(root.cost, cost) : root.cost + cost;
-    root.bound_sum += instance_.shortestLength(robot);
+    root.bound_sum += run_.reserved.soonestArrival(robot);
     path_of_[robot] = tree_.addPath(run_.paths[robot]);
     root.paths.emplace_back(robot, path_of_[robot]);
   }
@@ -135,7 +135,7 @@ void EcbsSearch::usePath(std::uint32_t robot, std::uint32_t number) {
 void EcbsSearch::load(std::uint32_t node) {
   ++loads_;
   for (const std::uint32_t robot : robots_) {
-    bound_of_[robot] = instance_.shortestLength(robot);
+    bound_of_[robot] = run_.reserved.soonestArrival(robot);
     constrained_at_[robot] = TreeNode::kNoParent;
   }
   for (std::uint32_t i = node; i != TreeNode::kNoParent; i = tree_.node(i).parent) {

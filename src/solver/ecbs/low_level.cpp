@@ -13,10 +13,11 @@ constexpr std::uint32_t kMakespanSteps = 10;
 }  // namespace
 
 LowLevel::LowLevel(const Instance& instance, const EcbsSettings& settings, const PathTable& table,
-                   const Deadline& deadline)
+                   const PathTable* reserved, const Deadline& deadline)
     : instance_(instance),
       settings_(settings),
       table_(table),
+      reserved_(reserved),
       deadline_(deadline),
       search_(instance.graph()) {}
 
@@ -26,6 +27,7 @@ SearchQuery LowLevel::shortest(std::uint32_t robot) const {
   query.start = instance_.start(robot);
   query.distances = &instance_.distances(robot);
   query.others = &table_;
+  query.reserved = reserved_;
   query.mode = OthersAre::kIgnored;
   return query;
 }

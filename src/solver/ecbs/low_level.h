@@ -14,8 +14,9 @@ namespace split_mapf {
 class LowLevel {
  public:
   /// @pre all arguments outlive this object.
+  /// @param reserved  null: nothing is.
   LowLevel(const Instance& instance, const EcbsSettings& settings, const PathTable& table,
-           const Deadline& deadline);
+           const PathTable* reserved, const Deadline& deadline);
 
   /// For the path with the fewest collisions whose length keeps w times a lower bound: `bound` is
   /// that of all robots for makespan, of this one for sum of costs; `own_bound` is this robot's.
@@ -37,6 +38,7 @@ class LowLevel {
   const Instance& instance_;
   const EcbsSettings& settings_;
   const PathTable& table_;
+  const PathTable* reserved_;
   const Deadline& deadline_;
   SafeIntervalSearch search_;
   std::uint64_t expansions_ = 0;

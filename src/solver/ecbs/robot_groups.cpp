@@ -19,7 +19,7 @@ RobotGroups::RobotGroups(EcbsRun& run)
   std::iota(group_of_.begin(), group_of_.end(), 0U);
   for (std::uint32_t robot = 0; robot < run.instance.robots(); ++robot) {
     groups_[robot].robots = {robot};
-    groups_[robot].lower_bound = run.instance.shortestLength(robot);
+    groups_[robot].lower_bound = run.reserved.soonestArrival(robot);
   }
 }
 
@@ -166,7 +166,8 @@ bool RobotGroups::plan(std::uint32_t number, SolveResult& result) {
   }
   Group& group = groups_[number];
   EcbsSearch search(run_, std::move(task));
-  const bool joint = run_.settings.searchesJointStates(group.robots.size());
+  // Joint states know nothing of steps at which a cell is reserved.
+  const bool joint = !run_.reserved.any() && run_.settings.searchesJointStates(group.robots.size());
   SolveResult part = search.run(joint ? EcbsSettings::kNodesBeforeJoint : 0);
   // Neither solved nor stopped: the tree goes on only where joint states are too many as well.
   if (part.termination == Termination::kNoPlanFound && !search.searchJointStates(part)) {

@@ -8,11 +8,12 @@
 namespace split_mapf {
 
 Repair::Repair(const Instance& instance, std::uint64_t seed, Effort& effort, PathTable& table,
-               std::vector<Path>& paths)
+               std::vector<Path>& paths, const PathTable* reserved)
     : instance_(instance),
       effort_(effort),
       table_(table),
       paths_(paths),
+      reserved_(reserved),
       search_(instance.graph()),
       graph_(instance.robots()),
       picker_(instance, seed) {}
@@ -23,6 +24,7 @@ Path Repair::fewestCollisions(std::uint32_t robot, std::uint32_t horizon) {
   query.start = instance_.start(robot);
   query.distances = &instance_.distances(robot);
   query.others = &table_;
+  query.reserved = reserved_;
   query.mode = OthersAre::kCounted;
   query.latest_arrival = horizon;
   SearchAnswer answer = search_.search(query, effort_.deadline());

@@ -22,8 +22,9 @@ namespace split_mapf {
 class Repair {
  public:
   /// `paths` and `table` hold the same paths; the robots without one have an empty path.
+  /// @param reserved  never to be collided with; null: nothing is reserved.
   Repair(const Instance& instance, std::uint64_t seed, Effort& effort, PathTable& table,
-         std::vector<Path>& paths);
+         std::vector<Path>& paths, const PathTable* reserved = nullptr);
 
   /// Places `robots` among the others with collisions. @return false when the effort stopped.
   bool place(const std::vector<std::uint32_t>& robots, std::uint32_t horizon);
@@ -45,6 +46,7 @@ class Repair {
   Effort& effort_;
   PathTable& table_;
   std::vector<Path>& paths_;
+  const PathTable* reserved_;
   SafeIntervalSearch search_;
   CollisionGraph graph_;
   CollidingNeighbourhoodPicker picker_;

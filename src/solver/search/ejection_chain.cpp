@@ -14,12 +14,14 @@ constexpr std::uint32_t kMostWeight = 1024;
 }  // namespace
 
 EjectionChain::EjectionChain(const Instance& instance, std::uint32_t latest_arrival,
-                             Departures departures)
+                             Departures departures, std::size_t reserved)
     : instance_(instance),
       departures_(std::move(departures)),
       latest_arrival_(latest_arrival),
       search_(instance.graph()),
-      weights_(instance.robots(), 1) {}
+      weights_(instance.robots(), 1) {
+  weights_.resize(weights_.size() + reserved, EvictionQuery::kFixed);
+}
 
 EjectionChain::Link& EjectionChain::linkOf(std::uint32_t robot) {
   const auto link = std::find_if(links_.begin(), links_.end(),

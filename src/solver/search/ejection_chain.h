@@ -43,7 +43,9 @@ struct ChainStart {
 class EjectionChain {
  public:
   /// @param latest_arrival  nobody arrives after it. The instance outlives this object.
-  EjectionChain(const Instance& instance, std::uint32_t latest_arrival, Departures departures = {});
+  /// @param reserved  paths in the table behind those of the robots, which are never ejected.
+  EjectionChain(const Instance& instance, std::uint32_t latest_arrival, Departures departures = {},
+                std::size_t reserved = 0);
 
   /// @return whether everybody found a path: then the new ones are in the table, else the old ones.
   /// @pre the table holds the paths of the plan, which is valid.
@@ -85,7 +87,7 @@ class EjectionChain {
   std::uint32_t latest_arrival_;
   EvictionSearch search_;
   WaitPlacer waits_;
-  std::vector<std::uint32_t> weights_;  // by robot, 1 but in a chain
+  std::vector<std::uint32_t> weights_;  // by robot, 1 but in a chain; then of the reserved paths
   std::uint64_t expansions_ = 0;
 
   const Plan* plan_ = nullptr;  // during a run, as are all of these

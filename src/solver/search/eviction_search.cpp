@@ -82,7 +82,9 @@ bool EvictionSearch::pushStart() {
   }
   std::uint32_t weight = 0;
   for (const Stay& stay : query_->placed->at(query_->start)) {
-    if (stay.begin <= query_->departure) weight += weightOf(stay);
+    if (stay.begin > query_->departure) break;
+    if (isFixed(stay)) return false;
+    weight += weightOf(stay);
   }
   State start{query_->start, query_->departure, kForever, kNone, kNone};
   if (!inTime(start.vertex, start.time)) return false;
@@ -192,7 +194,9 @@ void EvictionSearch::arrive(const State& state) {
   if (state.vertex != query_->distances->goal()) return;
   std::uint32_t weight = weight_;
   for (const Stay& stay : query_->placed->at(state.vertex)) {
-    if (stay.begin > state.time) weight += weightOf(stay);
+    if (stay.begin <= state.time) continue;
+    if (isFixed(stay)) return;
+    weight += weightOf(stay);
   }
   push({state.vertex, state.time, kForever, kArrived, state.parent}, weight);
 }
@@ -218,6 +222,7 @@ void EvictionSearch::waitIntoVisit(const State& state, std::uint32_t index) {
   if (!query_->placed->isTaken(state.vertex, t)) return;
   const Stay& visit = *nextVisit(state.vertex, t);
   offered_.mark(state.vertex, t, visit.end);
+  if (isFixed(visit)) return;
   push({state.vertex, t, visit.end, visit.next, index}, weight_ - 1 + weightOf(visit));
 }
 
@@ -267,7 +272,7 @@ void EvictionSearch::evictOncoming(const State& state, std::uint32_t index, Vert
   const ReservationTable& placed = *query_->placed;
   if (!placed.isTaken(to, t - 1) || placed.isTaken(to, t) || gaps_.reached()(to, t)) return;
   const Stay* const met = placed.oncoming(state.vertex, to, t);
-  if (met == nullptr) return;
+  if (met == nullptr || isFixed(*met)) return;
   const Stay* const next = nextVisit(to, t);
   const std::uint32_t end = next == nullptr ? kForever : next->begin;
   push({to, t, end, kNone, index}, weight_ - 1 + weightOf(*met));
@@ -275,10 +280,15 @@ void EvictionSearch::evictOncoming(const State& state, std::uint32_t index, Vert
 
 /// @return whether there is more to enter: nothing after the last step.
 bool EvictionSearch::enterVisit(const State& state, const Stay& visit, const State& entered) {
+  if (isFixed(visit)) {
+    offered_.mark(entered.vertex, entered.time, visit.end);  // nobody ever enters it
+    return true;
+  }
   std::uint32_t weight = weight_ - 1 + weightOf(visit);
   const Stay* const met = entered.time == state.end
                               ? query_->placed->oncoming(state.vertex, entered.vertex, entered.time)
                               : nullptr;
+  if (met != nullptr && isFixed(*met)) return false;
   if (met != nullptr) {
     weight += weightOf(*met);
   } else {

@@ -14,6 +14,7 @@ namespace split_mapf {
 
 /// A question that may be answered by a path that meets placed robots.
 struct EvictionQuery : GapQuery {
+  static constexpr std::uint32_t kFixed = 0xffffffffU;  ///< weight of who may not be evicted
   /// What it costs to evict a robot, by robot, each at least 1; null: nobody may be evicted.
   const std::vector<std::uint32_t>* weights = nullptr;
   /// Whether a path that evicts may arrive later than another of its weight, as long as it is in
@@ -89,6 +90,7 @@ class EvictionSearch {
     return keyOf(queue_[index].time, distanceOf(queue_[index].vertex));
   }
   std::uint32_t weightOf(const Stay& stay) const { return (*query_->weights)[stay.robot]; }
+  bool isFixed(const Stay& stay) const { return weightOf(stay) == EvictionQuery::kFixed; }
 
   const Graph& graph_;
   const EvictionQuery* query_ = nullptr;

@@ -52,7 +52,7 @@ void NeighbourhoodPicker::addOccupants(const PathTable& table, Vertex v, std::ui
                                        std::vector<std::uint32_t>& robots) {
   for (const Stay& stay : table.at(v)) {
     if (stay.begin > to || robots.size() >= size) return;
-    if (stay.end > from) add(stay.robot, robots);
+    if (stay.end > from && stay.robot < instance_.robots()) add(stay.robot, robots);
   }
 }
 

@@ -46,7 +46,8 @@ class NeighbourhoodPicker {
  public:
   NeighbourhoodPicker(const Instance& instance, std::uint64_t seed, Departures departures = {});
 
-  /// Puts at least one robot into `picked`. @param table holds the paths of the plan.
+  /// Puts at least one robot into `picked`. @param table  holds the paths of the plan, and of
+  /// others, which are never picked, under greater numbers.
   void pick(const Plan& plan, const PathTable& table, Neighbourhood& picked);
   /// What came of the last pick: steps gained and states expanded.
   void reward(std::uint64_t gain, std::uint64_t expansions);

@@ -10,7 +10,7 @@ namespace split_mapf {
 
 NeighbourhoodSearch::NeighbourhoodSearch(const Instance& instance, Plan plan,
                                          std::uint32_t latest_arrival, std::uint64_t seed,
-                                         const Departures& departures)
+                                         const Departures& departures, const Reservations* reserved)
     : instance_(instance),
       departures_(departures),
       soonest_(departures.soonestArrivals(instance)),
@@ -18,9 +18,14 @@ NeighbourhoodSearch::NeighbourhoodSearch(const Instance& instance, Plan plan,
       picker_(instance, seed, departures),
       engine_(seed),
       search_(instance.graph()),
-      chain_(instance, latest_arrival, departures),
+      chain_(instance, latest_arrival, departures,
+             reserved != nullptr ? reserved->paths().size() : 0),
       plan_(std::move(plan)),
-      table_(instance.graph().size(), plan_) {}
+      table_(instance.graph().size(), plan_) {
+  if (reserved == nullptr) return;
+  std::uint32_t number = instance.robots();
+  for (const Path& path : reserved->paths()) table_.insert(number++, path);
+}
 
 void NeighbourhoodSearch::replace(std::uint32_t robot, Path path) {
   table_.remove(robot, plan_.paths[robot]);

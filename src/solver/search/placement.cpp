@@ -13,8 +13,9 @@ constexpr std::uint32_t kLongestDelay = 20;
 }  // namespace
 
 Placement::Placement(const Instance& instance, const std::vector<std::uint32_t>& queue,
-                     std::uint64_t seed, std::uint32_t threads)
+                     std::uint64_t seed, std::uint32_t threads, const Reservations* reserved)
     : instance_(instance),
+      is_reserved_(reserved != nullptr && !reserved->empty()),
       engine_(seed),
       team_(threads),
       searches_(threads, {EvictionSearch(instance.graph())}),
@@ -23,12 +24,18 @@ Placement::Placement(const Instance& instance, const std::vector<std::uint32_t>&
       weights_(instance.robots(), 1),
       placed_in_(instance.robots(), 0) {
   plan_.paths.resize(instance.robots());
+  if (is_reserved_) {
+    for (const Path& path : reserved->paths()) {
+      table_.insert(static_cast<std::uint32_t>(weights_.size()), path);
+      weights_.push_back(EvictionQuery::kFixed);
+    }
+  }
   for (const std::uint32_t robot : queue) requeue(robot);
 }
 
 Placement::Placement(const Instance& instance, const Plan& plan, std::uint32_t horizon,
-                     std::uint64_t seed)
-    : Placement(instance, {}, seed, 1) {
+                     std::uint64_t seed, std::uint32_t threads, const Reservations* reserved)
+    : Placement(instance, {}, seed, threads, reserved) {
   for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {
     const Path& path = plan.paths[robot];
     if (path.size() - 1 > horizon) {
@@ -53,7 +60,8 @@ void Placement::remove(std::uint32_t robot) {
 
 std::uint32_t Placement::drawDeparture(std::uint32_t robot, std::uint32_t horizon,
                                        std::uint32_t one_in) {
-  if (one_in == 0 || drawBelow(engine_, one_in) > 0) return 0;
+  // One that departs late might not come around what is reserved in time.
+  if (is_reserved_ || one_in == 0 || drawBelow(engine_, one_in) > 0) return 0;
   const std::uint32_t length = instance_.shortestLength(robot);
   if (length == 0) return 0;  // its arrival is step 0, whatever it waits
   const std::uint32_t slack = horizon - length;

@@ -12,6 +12,7 @@
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"
 #include "split_mapf/core/random.h"
+#include "split_mapf/core/reservations.h"
 
 namespace split_mapf {
 
@@ -29,13 +30,15 @@ class Placement {
   static constexpr std::uint32_t kDelayedOneIn = 4;
   enum class Outcome { kDone, kSpent, kExhausted, kInterrupted };
 
-  /// @param queue  everybody, in the order of the first placing. The instance outlives this object.
+  /// @param queue  everybody, in the order of the first placing. @param reserved  placed for good
+  /// before all; null: nothing is. The instance outlives this object.
   Placement(const Instance& instance, const std::vector<std::uint32_t>& queue, std::uint64_t seed,
-            std::uint32_t threads);
+            std::uint32_t threads, const Reservations* reserved = nullptr);
 
   /// Starts from a plan: everybody who arrives by `horizon` is placed, the others wait.
   /// @pre the plan is valid and its paths end at their arrivals.
-  Placement(const Instance& instance, const Plan& plan, std::uint32_t horizon, std::uint64_t seed);
+  Placement(const Instance& instance, const Plan& plan, std::uint32_t horizon, std::uint64_t seed,
+            std::uint32_t threads = 1, const Reservations* reserved = nullptr);
 
   struct Effort {
     /// Placements without fewer robots waiting than ever before in this run.
@@ -51,7 +54,7 @@ class Placement {
     bool hasty = false;
   };
   /// Places who waits until nobody does or the effort is spent. @pre horizon >= every robot's
-  /// shortest path.
+  /// shortest path around what is reserved.
   Outcome run(std::uint32_t horizon, const Effort& effort, const Deadline& deadline);
   std::uint64_t expansions() const { return expansions_; }
   const Plan& plan() const { return plan_; }
@@ -73,6 +76,7 @@ class Placement {
   std::uint32_t drawDeparture(std::uint32_t robot, std::uint32_t horizon, std::uint32_t one_in);
 
   const Instance& instance_;
+  const bool is_reserved_;
   RandomEngine engine_;
   ThreadTeam team_;
   std::vector<Apart<EvictionSearch>> searches_;  // one a thread
@@ -80,7 +84,7 @@ class Placement {
   Plan plan_;                           // an empty path: waits
   std::deque<std::uint32_t> queue_;     // next first
   std::vector<std::uint32_t> queued_;   // how often, by robot
-  std::vector<std::uint32_t> weights_;  // by robot
+  std::vector<std::uint32_t> weights_;  // by robot, then of the reserved paths
   std::vector<std::uint32_t> left_over_;
   std::vector<Candidate> batch_;
   std::vector<std::uint32_t> placed_in_;  // by robot: number of the batch that placed it last

@@ -40,8 +40,7 @@ class BatchReplanning {
         plan_(std::move(plan)),
         effort_(effort),
         deadline_(deadline),
-        tables_(std::min(kMostThreads, effort.threads),
-                ReservationTable(instance.graph().size(), plan_)),
+        tables_(std::min(kMostThreads, effort.threads), tableOf(instance, plan_, effort.reserved)),
         team_(static_cast<std::uint32_t>(tables_.size())),
         searches_(tables_.size(), {GapSearch(instance.graph())}) {}
 
@@ -61,6 +60,15 @@ class BatchReplanning {
   }
 
  private:
+  static ReservationTable tableOf(const Instance& instance, const Plan& plan,
+                                  const Reservations* reserved) {
+    ReservationTable table(instance.graph().size(), plan);
+    if (reserved == nullptr) return table;
+    std::uint32_t number = instance.robots();
+    for (const Path& path : reserved->paths()) table.insert(number++, path);
+    return table;
+  }
+
   struct Change {
     std::uint32_t robot;
     Path before;

@@ -7,6 +7,7 @@
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"
+#include "split_mapf/core/reservations.h"
 
 namespace split_mapf {
 
@@ -17,7 +18,8 @@ struct ReplanEffort {
   /// Asked after each batch of searches with the states that they expanded and the steps that they
   /// took off the sum of costs; no ends the passes. Null: it never does.
   std::function<bool(std::uint64_t expansions, std::uint64_t gained)> go_on;
-  Departures departures = {};  ///< kept by the plan, as by what comes of it
+  Departures departures = {};              ///< kept by the plan, as by what comes of it
+  const Reservations* reserved = nullptr;  ///< likewise; null: nothing is reserved
 };
 
 /// Plans robots of a valid plan anew, one at a time among the paths of all others: each gets the

@@ -10,6 +10,8 @@ constexpr std::uint32_t kMostConflicts = 63;
 // Collisions that one step beyond the firm arrival weighs.
 constexpr std::uint32_t kFirmWeight = 8;
 constexpr std::uint64_t kPollEvery = 1024;
+// The number of no robot, planned or reserved.
+constexpr std::uint32_t kNoRobotAtAll = 0xffffffffU;
 // States for which there is room from the start.
 constexpr std::size_t kStatesAVertex = 32;
 constexpr std::size_t kMostReserved = std::size_t{1} << 20;
@@ -105,10 +107,22 @@ const Timeline& SafeIntervalSearch::timelineOf(Vertex v) {
       timeline = &query_->others->timeline(v);
     }
   }
+  if (query_->reserved != nullptr) timeline = &withoutReserved(v, *timeline);
   if (query_->constraints == nullptr || !query_->constraints->bansAt(v)) return *timeline;
   Timeline& cut = ownTimeline();
   cut = *timeline;
   cutBans(v, *query_->constraints, cut);
+  return cut;
+}
+
+const Timeline& SafeIntervalSearch::withoutReserved(Vertex v, const Timeline& timeline) {
+  const std::vector<Stay>& stays = query_->reserved->at(v);
+  if (stays.empty()) return timeline;
+  RobotConstraints bans;
+  for (const Stay& stay : stays) bans.vertex_bans.push_back({v, stay.begin, stay.end});
+  Timeline& cut = ownTimeline();
+  cut = timeline;
+  cutBans(v, bans, cut);
   return cut;
 }
 
@@ -252,10 +266,17 @@ void SafeIntervalSearch::expandMoves(const State& state, std::uint32_t index, st
   if (later <= leave_by && later < kForever) pushLater(state, index, later);
 }
 
+bool SafeIntervalSearch::isMoveBanned(Vertex from, Vertex to, std::uint32_t step) const {
+  if (query_->constraints != nullptr && query_->constraints->bansMove(from, to, step)) return true;
+  return query_->reserved != nullptr &&
+         query_->reserved->countSwaps(kNoRobotAtAll, from, to, step) > 0;
+}
+
 bool SafeIntervalSearch::firstAllowed(Vertex from, Vertex to, std::uint32_t& time,
                                       std::uint32_t last) const {
-  if (query_->constraints == nullptr || query_->constraints->move_bans.empty()) return time <= last;
-  while (time <= last && query_->constraints->bansMove(from, to, time)) ++time;
+  const bool has_bans = query_->constraints != nullptr && !query_->constraints->move_bans.empty();
+  if (!has_bans && query_->reserved == nullptr) return time <= last;
+  while (time <= last && isMoveBanned(from, to, time)) ++time;
   return time <= last;
 }
 

@@ -28,7 +28,8 @@ struct SearchQuery {
   const PathTable* others = nullptr;         ///< may hold the robot itself; it is skipped
   OthersAre mode = OthersAre::kIgnored;
   const RobotConstraints* constraints = nullptr;  ///< may be null
-  std::uint32_t latest_arrival = kForever - 1;    ///< longest path allowed [steps]
+  const PathTable* reserved = nullptr;  ///< paths to keep clear of, whatever the mode; may be null
+  std::uint32_t latest_arrival = kForever - 1;  ///< longest path allowed [steps]
   /// With kCounted an arrival after `cheap_arrival` weighs like one collision for every
   /// `steps_a_collision` steps, after `firm_arrival` like several for each step.
   std::uint32_t cheap_arrival = kForever;
@@ -91,6 +92,8 @@ class SafeIntervalSearch {
   const Meeting& meet(Vertex v);
   const Timeline& timelineOf(Vertex v);
   Timeline& ownTimeline();
+  /// The timeline without the steps of reserved visits, or itself.
+  const Timeline& withoutReserved(Vertex v, const Timeline& timeline);
   std::uint32_t distanceOf(Vertex v) const {
     if (flat_ == nullptr) return (*query_->distances)(v);
     return flat_[v] != 0xffffU ? flat_[v] : DistanceTable::kUnreachable;
@@ -105,6 +108,7 @@ class SafeIntervalSearch {
              std::uint32_t time);
   void arrive(const State& state, std::uint32_t index, std::uint32_t number, std::uint32_t time,
               std::uint32_t last);
+  bool isMoveBanned(Vertex from, Vertex to, std::uint32_t step) const;
   bool firstAllowed(Vertex from, Vertex to, std::uint32_t& time, std::uint32_t last) const;
   std::uint32_t swaps(const State& state, Vertex to, const Segment& there,
                       std::uint32_t time) const;

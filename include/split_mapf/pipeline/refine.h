@@ -7,6 +7,7 @@
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/objective.h"
 #include "split_mapf/core/plan.h"
+#include "split_mapf/core/reservations.h"
 #include "split_mapf/pipeline/executor.h"
 #include "split_mapf/solver/registry.h"
 
@@ -24,6 +25,9 @@ struct RefineOptions {
   /// Told what is proved on the way. For makespan, too: the sum of costs that no plan of the least
   /// makespan goes below. Null: nobody is.
   std::function<void(Objective, std::uint64_t bound)> proved;
+  /// What the plan keeps clear of, and has to go on to; null: nothing is reserved. Then there are
+  /// neither windows nor joint states: both know nothing of reserved steps.
+  const Reservations* reserved = nullptr;
   /// Whose windowSolvers() solve windows of the plan anew for makespan; null: nobody does.
   const SolverRegistry* solvers = nullptr;
 };
@@ -36,8 +40,9 @@ struct RefineOptions {
 /// sum of costs. Where makespan is no matter any more it goes through worse plans on the way, see
 /// Annealing; what it shows and returns never gets worse. Calls `improved` from the calling thread
 /// with every better plan, a few times a second at most. Returns the best plan. The clock cuts it,
-/// so two runs may differ. Source: Li et al., IJCAI 2021; chains after Glover 1996; optimistic
-/// commits after Chan et al. 2024 (arXiv 2402.01961).
+/// so two runs may differ. @pre the plan is valid and keeps what is reserved. Source: Li et al.,
+/// IJCAI 2021; chains after Glover 1996; optimistic commits after Chan et al. 2024 (arXiv
+/// 2402.01961).
 Plan refine(const Instance& instance, Plan plan, const RefineOptions& options, Executor& executor,
             const Deadline& deadline, const std::function<void(const Plan&)>& improved);
 
