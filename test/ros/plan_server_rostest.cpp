@@ -31,7 +31,9 @@ using test::TrackedGoal;
 
 class PlannerNode : public ::testing::Test {
  protected:
-  void SetUp() override { ASSERT_TRUE(client_.waitForActionServerToStart(ros::Duration(20))); }
+  void SetUp() override {
+    ASSERT_TRUE(client_.waitForActionServerToStart(ros::Duration(test::kPatienceSec)));
+  }
   void expectServing() {
     const TrackedGoal goal = runGoal(client_, smallGoal());
     EXPECT_EQ(goal.result().outcome, PlanOutcome::SUCCEEDED) << goal.result().message;
@@ -71,11 +73,6 @@ TEST_F(PlannerNode, PlansAndSaysHowGood) {
   EXPECT_FALSE(result.statistics.certified_by.empty());
   EXPECT_EQ(result.statistics.stage_names.size(), result.statistics.stage_seconds.size());
   EXPECT_FALSE(result.statistics.stage_names.empty());
-  // Feedback of every stage may trail the result: another topic.
-  ros::WallDuration(0.2).sleep();
-  std::set<std::string> stages;
-  for (const PlanPathsFeedback& feedback : goal.feedback()) stages.insert(feedback.stage);
-  EXPECT_EQ(stages.count("solve"), 1U);
   EXPECT_EQ(goal.timesDone(), 1);
 }
 
@@ -105,7 +102,11 @@ TEST_F(PlannerNode, TransformsPoses) {
   message.robots.resize(1);
   message.robots[0].start = poseAt(2.5, -0.5);
   message.robots[0].start.header.frame_id = "dock";
-  const PlanPathsResult result = runGoal(client_, message).result();
+  PlanPathsResult result = runGoal(client_, message).result();
+  // Until the node has heard of it.
+  for (int i = 0; i < 50 && result.outcome == PlanOutcome::TRANSFORM_FAILED; ++i) {
+    result = runGoal(client_, message).result();
+  }
   ASSERT_EQ(result.outcome, PlanOutcome::SUCCEEDED) << result.message;
   EXPECT_EQ(result.plan.paths[0].cells.front(), 2U);
 }
@@ -368,16 +369,17 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_F(PlannerNode, StopsACancelledSearchAtOnce) {
   TrackedGoal goal(client_, hardGoal());
   ASSERT_TRUE(goal.waitActive());
-  ros::WallDuration(1.0).sleep();
+  ASSERT_TRUE(goal.waitFeedback(8));  // 5 Hz
   const double cancelled_at = TrackedGoal::now();
   goal.cancel();
   ASSERT_TRUE(goal.waitDone());
   EXPECT_EQ(goal.state(), "PREEMPTED");
   EXPECT_EQ(goal.result().outcome, PlanOutcome::CANCELLED);
-  EXPECT_LT(goal.doneAt() - cancelled_at, 0.2);
-  // 5 Hz for a second.
-  EXPECT_GE(goal.feedback().size(), 5U);
-  EXPECT_GT(goal.feedback().back().elapsed, 0.7);
+  EXPECT_LT(goal.doneAt() - cancelled_at, test::kPromptSec);
+  std::set<std::string> stages;
+  for (const PlanPathsFeedback& feedback : goal.feedback()) stages.insert(feedback.stage);
+  EXPECT_EQ(stages.count("solve"), 1U);
+  EXPECT_GT(goal.feedback().back().elapsed, 0.5);
   EXPECT_EQ(goal.timesDone(), 1);
   expectServing();
 }
@@ -388,7 +390,8 @@ TEST_F(PlannerNode, MeasuresTheTimeLimitFromTheReception) {
   const double sent_at = TrackedGoal::now();
   const TrackedGoal goal = runGoal(client_, message);
   EXPECT_EQ(goal.result().outcome, PlanOutcome::TIMEOUT);
-  EXPECT_NEAR(goal.doneAt() - sent_at, 1, 0.3);
+  EXPECT_GT(goal.doneAt() - sent_at, 0.9);
+  EXPECT_LT(goal.doneAt() - sent_at, 1 + test::kPromptSec);
 }
 
 TEST_F(PlannerNode, ServesOtherGoalsBesideALongOne) {
@@ -418,6 +421,7 @@ TEST_F(PlannerNode, SurvivesManyGoalsAtOnce) {
 
 TEST_F(PlannerNode, ValidatesPlansOfOthers) {
   ros::ServiceClient service = node_.serviceClient<ValidatePlan>("split_mapf/validate_plan");
+  ASSERT_TRUE(service.waitForExistence(ros::Duration(test::kPatienceSec)));
   ValidatePlan call;
   call.request.map = smallGoal().map;
   call.request.plan = runGoal(client_, smallGoal()).result().plan;
@@ -439,6 +443,7 @@ TEST_F(PlannerNode, ValidatesPlansOfOthers) {
 
 TEST_F(PlannerNode, TellsWhetherAPlanExists) {
   ros::ServiceClient service = node_.serviceClient<CheckSolvable>("split_mapf/check_solvable");
+  ASSERT_TRUE(service.waitForExistence(ros::Duration(test::kPatienceSec)));
   CheckSolvable call;
   call.request.map = smallGoal().map;
   call.request.robots = smallGoal().robots;
@@ -473,6 +478,7 @@ TEST_F(PlannerNode, TellsWhetherAPlanExists) {
 
 TEST_F(PlannerNode, ListsItsSolvers) {
   ros::ServiceClient service = node_.serviceClient<ListSolvers>("split_mapf/list_solvers");
+  ASSERT_TRUE(service.waitForExistence(ros::Duration(test::kPatienceSec)));
   ListSolvers call;
   ASSERT_TRUE(service.call(call));
   const std::vector<std::string>& names = call.response.names;

@@ -8,12 +8,14 @@
 #include <split_mapf/PlanOutcome.h>
 #include <split_mapf/PlanPathsAction.h>
 
+#include <algorithm>
 #include <functional>
 #include <mutex>
 #include <string>
 #include <vector>
 
 #include "ros/goal_messages.h"
+#include "ros/tracked_goal.h"
 
 namespace split_mapf {
 namespace {
@@ -23,7 +25,7 @@ using actionlib_msgs::GoalStatus;
 
 const std::string kAction = "/split_mapf/plan_paths";  // NOLINT: a name
 
-bool waitUntil(const std::function<bool()>& condition, double patience_sec = 10) {
+bool waitUntil(const std::function<bool()>& condition, double patience_sec = test::kPatienceSec) {
   const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(patience_sec);
   while (ros::WallTime::now() < end) {
     if (condition()) return true;
@@ -53,12 +55,11 @@ class Recall : public ::testing::Test {
   void setClock(double sec) {
     rosgraph_msgs::Clock clock;
     clock.clock = ros::Time(sec);
-    // Both the node and this process have to hear of it.
-    for (int i = 0; i < 5; ++i) {
+    // Both the node, which stamps its status, and this process have to hear of it.
+    ASSERT_TRUE(waitUntil([&] {
       clock_.publish(clock);
-      ros::WallDuration(0.05).sleep();
-    }
-    ASSERT_TRUE(waitUntil([&] { return ros::Time::now() == clock.clock; }));
+      return ros::Time::now() == clock.clock && lastStatus().header.stamp == clock.clock;
+    }));
   }
   void send(const GoalID& goal_id, const PlanPathsGoal& goal = test::smallGoal()) {
     PlanPathsActionGoal message;
@@ -68,7 +69,19 @@ class Recall : public ::testing::Test {
   }
   void cancel(const GoalID& goal_id) {
     cancels_.publish(goal_id);
-    ros::WallDuration(0.2).sleep();  // two topics: the cancel has to arrive first
+    awaitCancels();
+  }
+  /// Goals are another topic: a cancel sent after all others, which the status shows, is awaited.
+  void awaitCancels() {
+    static int markers = 0;  // of all tests: the status still has those of earlier ones
+    const GoalID marker = idOf("never sent, number " + std::to_string(++markers));
+    cancels_.publish(marker);
+    ASSERT_TRUE(waitUntil([&] {
+      for (const GoalStatus& status : lastStatus().status_list) {
+        if (status.goal_id.id == marker.id) return true;
+      }
+      return false;
+    }));
   }
   /// All results for one goal, once there is one.
   std::vector<PlanPathsActionResult> resultsOf(const std::string& id) {
@@ -98,9 +111,9 @@ class Recall : public ::testing::Test {
     ASSERT_EQ(results.size(), 1U) << id;
     EXPECT_EQ(results[0].status.status, GoalStatus::SUCCEEDED) << results[0].result.message;
   }
-  std::vector<GoalStatus> lastStatus() {
+  actionlib_msgs::GoalStatusArray lastStatus() {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return status_.status_list;
+    return status_;
   }
 
   ros::NodeHandle node_;
@@ -184,20 +197,26 @@ TEST_F(Recall, AGoalWhoseOwnIdIsAMegabyteIsRefused) {
   EXPECT_NE(results[0].result.message.find("1000000 bytes"), std::string::npos);
   EXPECT_LT(results[0].result.message.size(), 300U);
   cancel(idOf(huge));
-  for (const GoalStatus& status : lastStatus()) EXPECT_LT(status.goal_id.id.size(), 300U);
+  for (const GoalStatus& status : lastStatus().status_list) {
+    EXPECT_LT(status.goal_id.id.size(), 300U);
+  }
   expectServing("after the long id");
 }
 
 TEST_F(Recall, CancelsOfGoalsThatNeverComeDoNotGatherForEver) {
-  for (int i = 0; i < 3000; ++i) {
-    cancels_.publish(idOf("never sent " + std::to_string(i)));
-    // The node's own queue of cancels would drop all but the last of a burst.
-    if (i % 20 == 19) ros::WallDuration(0.005).sleep();
-  }
-  EXPECT_TRUE(waitUntil([this] { return lastStatus().size() > 500; }));
-  EXPECT_TRUE(waitUntil([this] { return lastStatus().size() <= 1000; }));
+  const auto count = [this] { return lastStatus().status_list.size(); };
+  // The node's own queue of cancels would drop all but the last of a burst.
+  int sent = 0;
+  std::size_t most = 0;
+  EXPECT_TRUE(waitUntil([&] {
+    for (int i = 0; i < 40; ++i) cancels_.publish(idOf("never sent " + std::to_string(++sent)));
+    most = std::max(most, count());
+    return most > 500 && sent > 3000;
+  }));
+  awaitCancels();
+  EXPECT_TRUE(waitUntil([&] { return count() <= 1000; }));
   setClock(2100);
-  EXPECT_TRUE(waitUntil([this] { return lastStatus().empty(); })) << lastStatus().size();
+  EXPECT_TRUE(waitUntil([&] { return count() == 0; })) << count();
   expectServing("after many cancels");
 }
 

@@ -4,12 +4,13 @@
 import os
 import shutil
 import tempfile
-import time
 import unittest
+import xmlrpc.client
 
 import rosbag
 import rospy
 import rosunit
+from diagnostic_msgs.msg import DiagnosticArray
 from rosgraph_msgs.msg import Clock
 from visualization_msgs.msg import MarkerArray
 
@@ -18,12 +19,23 @@ from ros_processes import (Program, Recorder, SentGoal, action_client, wait_unti
 from split_mapf.msg import PlanOutcome, PlanPathsActionGoal
 from split_mapf.srv import ReplayControl, ReplayControlRequest
 
+ACTION = "/split_mapf/plan_paths/"
 LATCHED_TOPICS = ("/map", "/split_mapf/plan", "/split_mapf/planning_grid", "/split_mapf/layout")
 
 
 def first_robot(array):
     point = next(marker for marker in array.markers if marker.ns == "robots").points[0]
     return point.x, point.y
+
+
+def topics_received_by(node):
+    """Topics of whose publishers the node has a connection."""
+    try:
+        address = rospy.get_master().lookupNode(node)[2]
+        links = xmlrpc.client.ServerProxy(address).getBusInfo("/recording_rostest")[2]
+    except (OSError, TypeError, xmlrpc.client.Error):
+        return set()  # it is not there yet
+    return {link[4] for link in links if link[2] == "i" and link[5]}
 
 
 def count_of(found, topic):
@@ -44,7 +56,7 @@ class Recording(unittest.TestCase):
         try:
             cls.record(planner, cls.bag, cls.ask_for_a_plan)
             # The plan is latched, and its replay goes on.
-            cls.record(planner, cls.marker_bag, lambda planner: None, "markers:=true")
+            cls.record(planner, cls.marker_bag, cls.wait_for_markers, "markers:=true")
         finally:
             planner.end()
 
@@ -58,19 +70,31 @@ class Recording(unittest.TestCase):
                          *arguments)
         try:
             assert wait_until(lambda: os.path.exists(bag + ".active")), record.output()
-            # The recorder subscribes to what it finds; the goal comes after that.
-            time.sleep(2)
             act(planner)
-            time.sleep(5)
+            # What comes later shows that the recorder has what came before.
+            diagnostics = Recorder("/diagnostics", DiagnosticArray)
+            assert diagnostics.wait_for(4), planner.output()
+            diagnostics.close()
         finally:
             record.end()
 
     @classmethod
     def ask_for_a_plan(cls, planner):
-        sent = SentGoal(action_client(), warehouse_goal())
+        client = action_client()
+        topics = {ACTION + name for name in ("goal", "feedback", "result")}
+        topics.add("/diagnostics")
+        assert wait_until(lambda: topics <= topics_received_by("/record")), planner.output()
+        sent = SentGoal(client, warehouse_goal())
         assert sent.wait_for_end(), planner.output()
         assert sent.result().outcome == PlanOutcome.SUCCEEDED, sent.result().message
         cls.makespan = sent.result().plan.makespan
+
+    @classmethod
+    def wait_for_markers(cls, planner):
+        assert wait_until(lambda: "/replay/markers" in topics_received_by("/record"))
+        markers = Recorder("replay/markers", MarkerArray)
+        assert markers.wait_for(60), planner.output()
+        markers.close()
 
     def play(self, *arguments, bag=None, env=None):
         program = Program("roslaunch", "split_mapf", "playback.launch", "rviz:=false",
@@ -85,9 +109,9 @@ class Recording(unittest.TestCase):
 
     def assert_shows_the_whole_plan(self, markers, playback):
         """From the first robot's start to its goal, of the warehouse of 24 columns."""
-        self.assertTrue(markers.wait_for(1, 30), playback.output())
+        self.assertTrue(markers.wait_for(1), playback.output())
         self.assertEqual(first_robot(markers.messages[0]), (1.5, 10.5))
-        self.assertTrue(wait_until(lambda: first_robot(markers.messages[-1]) == (22.5, 10.5), 60),
+        self.assertTrue(wait_until(lambda: first_robot(markers.messages[-1]) == (22.5, 10.5)),
                         first_robot(markers.messages[-1]))
         self.assertIsNone(playback.process.poll(), playback.output())
 
@@ -97,8 +121,8 @@ class Recording(unittest.TestCase):
             for topic in LATCHED_TOPICS:
                 self.assertGreaterEqual(count_of(found, topic), 1, topic)
             for name in ("goal", "result"):
-                self.assertEqual(count_of(found, "/split_mapf/plan_paths/" + name), 1, name)
-            self.assertGreaterEqual(count_of(found, "/split_mapf/plan_paths/feedback"), 1)
+                self.assertEqual(count_of(found, ACTION + name), 1, name)
+            self.assertGreaterEqual(count_of(found, ACTION + "feedback"), 1)
             self.assertGreaterEqual(count_of(found, "/diagnostics"), 1)
             self.assertEqual(count_of(found, "/replay/markers"), 0)
             plan = next(message for _, message, _ in bag.read_messages("/split_mapf/plan"))
@@ -176,10 +200,11 @@ class Recording(unittest.TestCase):
         playback = self.play("replay_speed:=20", "rate:=4")
         self.assert_shows_the_whole_plan(markers, playback)
         control = rospy.ServiceProxy("replay/control", ReplayControl)
+        seen = len(markers.messages)
         self.assertTrue(control(ReplayControlRequest.SEEK, 0).ok)
         self.assertTrue(control(ReplayControlRequest.PLAY, 0).ok)
-        self.assertTrue(wait_until(lambda: first_robot(markers.messages[-1]) == (1.5, 10.5) or
-                                   first_robot(markers.messages[-1])[0] < 20))
+        self.assertTrue(wait_until(
+            lambda: any(first_robot(array)[0] < 20 for array in markers.messages[seen:])))
         self.assertTrue(wait_until(lambda: first_robot(markers.messages[-1]) == (22.5, 10.5)))
         self.assertTrue(control(ReplayControlRequest.STEP, -2).ok)
         self.assertTrue(wait_until(lambda: first_robot(markers.messages[-1]) != (22.5, 10.5)))
@@ -190,12 +215,12 @@ class Recording(unittest.TestCase):
         self.assert_shows_the_whole_plan(markers, playback)
         seen = len(markers.messages)
         self.assertTrue(wait_until(
-            lambda: min(first_robot(array)[0] for array in markers.messages[seen - 1:]) < 3, 20),
+            lambda: min(first_robot(array)[0] for array in markers.messages[seen - 1:]) < 3),
             playback.output())
 
     def test_ends_with_an_error_without_its_bag(self):
         playback = self.play(bag="/nowhere.bag")
-        self.assertIsNotNone(playback.wait(30), playback.output())
+        self.assertIsNotNone(playback.wait(), playback.output())
         self.assertIn("/nowhere.bag", playback.output())
 
     def test_shows_the_recorded_markers_when_asked(self):
@@ -203,7 +228,7 @@ class Recording(unittest.TestCase):
         playback = self.play("recorded_markers:=true", "rate:=4", bag=self.marker_bag)
         self.assertTrue(markers.wait_for(40), playback.output())
         self.assertNotIn("process[replay", playback.output())
-        self.assertIsNotNone(playback.wait(30), playback.output())
+        self.assertIsNotNone(playback.wait(), playback.output())
 
 
 if __name__ == "__main__":

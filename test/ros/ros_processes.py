@@ -30,6 +30,8 @@ WAREHOUSE = """\
 ........................
 ........................
 """
+# Seconds that a test waits for a state that has to come, on a machine that is busy with other tests.
+PATIENCE = 60
 HARD_SIDE = 12
 HARD_ROBOTS = 110
 
@@ -49,14 +51,14 @@ class Program:
         with open(self.output_file.name, encoding="utf-8", errors="replace") as file:
             return file.read()
 
-    def wait_for_output(self, text, patience=20):
+    def wait_for_output(self, text, patience=PATIENCE):
         return wait_until(lambda: text in self.output() or self.process.poll() is not None,
                           patience) and text in self.output()
 
     def signal(self, number):
         self.process.send_signal(number)
 
-    def wait(self, patience=20):
+    def wait(self, patience=PATIENCE):
         """The exit code; None when it does not end."""
         try:
             return self.process.wait(patience)
@@ -69,7 +71,7 @@ class Program:
             if self.process.poll() is not None:
                 break
             os.killpg(self.process.pid, number)
-            self.wait(8)
+            self.wait(15)
         self.output_file.close()
 
 
@@ -79,7 +81,7 @@ def start_program(name, *arguments):
     return Program(roslib.packages.find_node("split_mapf", name)[0], *arguments)
 
 
-def wait_until(condition, patience=20):
+def wait_until(condition, patience=PATIENCE):
     end = time.monotonic() + patience
     while time.monotonic() < end:
         if condition():
@@ -188,7 +190,7 @@ class SentGoal:
     def is_pending(self):
         return self.handle.get_comm_state() == actionlib.CommState.PENDING
 
-    def wait_for_end(self, patience=20):
+    def wait_for_end(self, patience=PATIENCE):
         return wait_until(
             lambda: self.handle.get_comm_state() == actionlib.CommState.DONE, patience)
 
@@ -201,7 +203,7 @@ class SentGoal:
 
 def action_client():
     client = actionlib.ActionClient("split_mapf/plan_paths", PlanPathsAction)
-    if not client.wait_for_server(rospy.Duration(30)):
+    if not client.wait_for_server(rospy.Duration(PATIENCE)):
         raise RuntimeError("no action server")
     return client
 
@@ -213,7 +215,7 @@ class Recorder:
         self.messages = []
         self.subscriber = rospy.Subscriber(topic, kind, self.messages.append)
 
-    def wait_for(self, count=1, patience=20):
+    def wait_for(self, count=1, patience=PATIENCE):
         return wait_until(lambda: len(self.messages) >= count, patience)
 
     def close(self):

@@ -37,7 +37,7 @@ TEST(RunSlots, ServeInOrderOfTickets) {
       }
       slots.release();
     });
-    sleepMs(30);
+    sleepMs(100);
   }
   slots.release();
   for (std::thread& thread : threads) thread.join();
@@ -56,9 +56,8 @@ TEST(RunSlots, LetAStoppedWaiterGo) {
   sleepMs(50);
   EXPECT_FALSE(ended);
   stop->request();
-  sleepMs(150);
-  EXPECT_TRUE(ended);
   waiter.join();
+  EXPECT_TRUE(ended);
   // The one who went does not stand in the way.
   slots.release();
   EXPECT_TRUE(slots.acquire(2, Deadline(1)));

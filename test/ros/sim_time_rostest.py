@@ -12,7 +12,7 @@ import rosunit
 from rosgraph_msgs.msg import Clock
 from visualization_msgs.msg import MarkerArray
 
-from ros_processes import Recorder, robots_of, start_program, wait_until, write_instance
+from ros_processes import PATIENCE, Recorder, robots_of, start_program, wait_until, write_instance
 from split_mapf.msg import MultiRobotPlan, RobotPath
 from split_mapf.srv import ReplayControl, ReplayControlRequest
 
@@ -82,44 +82,47 @@ class SimulatedTime(unittest.TestCase):
     def test_a_clock_that_begins_after_the_plan_starts_the_replay(self):
         self.start_replay()
         self.start_clock(1.7e9)
-        self.assertTrue(wait_until(lambda: 2 < self.step() < 10, 15), self.steps())
+        self.assertTrue(wait_until(lambda: 2 < self.step() < 10), self.steps())
         self.assertLess(max(self.steps()), 10)
 
     def test_a_clock_that_jumps_back_starts_the_replay_anew(self):
         self.start_replay()
         clock = self.start_clock(5000, rate=8)
-        self.assertTrue(wait_until(lambda: self.step() > 20, 15))
+        self.assertTrue(wait_until(lambda: self.step() > 20))
         clock.close()
         seen = len(self.markers.messages)
         self.start_clock(100)
         self.assertTrue(wait_until(
-            lambda: min(self.steps()[seen:] or [STEPS]) < 1, 15), self.steps()[seen:])
-        self.assertTrue(wait_until(lambda: 1 < self.step() < 10, 15), self.steps()[seen:])
+            lambda: min(self.steps()[seen:] or [STEPS]) < 1), self.steps()[seen:])
+        self.assertTrue(wait_until(lambda: 1 < self.step() < 10), self.steps()[seen:])
 
     def test_a_clock_that_ends_leaves_the_rest_to_wall_time(self):
         self.start_replay("_speed:=5")
         clock = self.start_clock(5000)
-        self.assertTrue(wait_until(lambda: self.step() > 5, 15))
+        self.assertTrue(wait_until(lambda: self.step() > 5))
         clock.close()
-        time.sleep(0.5)
-        self.assertLess(self.step(), STEPS - 5)
-        self.assertTrue(wait_until(lambda: self.step() == STEPS, 15), self.step())
+        left = self.step()
+        self.assertTrue(wait_until(lambda: self.step() == STEPS), self.step())
+        # It goes on instead of leaping to its end.
+        between = {step for step in self.steps() if left < step < STEPS}
+        self.assertGreater(len(between), 5, between)
 
     def test_a_paused_clock_pauses_the_replay(self):
         self.start_replay()
         clock = self.start_clock(5000)
-        self.assertTrue(wait_until(lambda: self.step() > 1, 15))
+        self.assertTrue(wait_until(lambda: self.step() > 1))
         clock.ends.set()
         clock.thread.join()
         self.addCleanup(clock.publisher.unregister)
-        time.sleep(0.5)
+        # What the clock told at last arrives.
+        time.sleep(1)
         stopped = self.step()
         time.sleep(4)
         self.assertEqual(self.step(), stopped)
 
     def test_the_replay_obeys_without_any_clock(self):
         self.start_replay()
-        rospy.wait_for_service("replay/control", 10)
+        rospy.wait_for_service("replay/control", PATIENCE)
         control = rospy.ServiceProxy("replay/control", ReplayControl)
         self.assertTrue(control(ReplayControlRequest.PAUSE, 0).ok)
         self.assertTrue(control(ReplayControlRequest.SEEK, 30).ok)
@@ -158,11 +161,11 @@ class SimulatedTime(unittest.TestCase):
         self.assertIsNone(client.process.poll(), client.output())
         planner = start_program("planner_node")
         self.addCleanup(planner.end)
-        self.assertEqual(client.wait(30), 0, client.output() + planner.output())
+        self.assertEqual(client.wait(), 0, client.output() + planner.output())
 
     def test_a_client_loses_patience_though_time_stands(self):
         client = self.start_client("--wait", "2", "--server", "nowhere")
-        self.assertEqual(client.wait(15), 5, client.output())
+        self.assertEqual(client.wait(), 5, client.output())
         self.assertIn("within 2 s", client.output())
 
 

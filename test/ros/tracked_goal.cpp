@@ -22,6 +22,7 @@ TrackedGoal::TrackedGoal(PlanActionClient& client, const PlanPathsGoal& goal)
                                     const PlanPathsFeedbackConstPtr& feedback) {
     const std::lock_guard<std::mutex> lock(events->mutex);
     events->feedback.push_back(*feedback);
+    events->changed.notify_all();
   };
   handle_ = client.sendGoal(goal, on_transition, on_feedback);
 }
@@ -36,6 +37,12 @@ bool TrackedGoal::waitDone(double patience_sec) {
   std::unique_lock<std::mutex> lock(events_->mutex);
   return events_->changed.wait_for(lock, std::chrono::duration<double>(patience_sec),
                                    [this] { return events_->times_done > 0; });
+}
+
+bool TrackedGoal::waitFeedback(std::size_t count, double patience_sec) {
+  std::unique_lock<std::mutex> lock(events_->mutex);
+  return events_->changed.wait_for(lock, std::chrono::duration<double>(patience_sec),
+                                   [&] { return events_->feedback.size() >= count; });
 }
 
 PlanPathsResult TrackedGoal::result() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstddef>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -11,6 +12,12 @@
 
 namespace split_mapf::test {
 
+/// How long a test waits for a state that has to come, on a machine that is busy with other tests.
+constexpr double kPatienceSec = 60;
+/// What a test that measures time allows of the 200 ms in which the node hears a cancel or ends at
+/// a limit: five times as much, for machines that are slow.
+constexpr double kPromptSec = 1;
+
 using PlanActionClient = actionlib::ActionClient<PlanPathsAction>;
 
 /// A goal that was sent, and everything that came back. Needs a spinning thread.
@@ -19,9 +26,12 @@ class TrackedGoal {
   TrackedGoal(PlanActionClient& client, const PlanPathsGoal& goal);
 
   /// Waits until the goal is active. False after `patience_sec`.
-  bool waitActive(double patience_sec = 10);
+  bool waitActive(double patience_sec = kPatienceSec);
   /// Waits until the goal has a terminal state. False after `patience_sec`.
-  bool waitDone(double patience_sec = 30);
+  bool waitDone(double patience_sec = kPatienceSec);
+  /// Waits for so many feedback messages: they may trail the result, which is another topic. False
+  /// after `patience_sec`.
+  bool waitFeedback(std::size_t count, double patience_sec = kPatienceSec);
   void cancel() { handle_.cancel(); }
 
   /// "SUCCEEDED", "ABORTED", ... @pre waitDone().
