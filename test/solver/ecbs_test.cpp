@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "solver/ecbs/conflicts.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/validate.h"
@@ -100,6 +102,28 @@ TEST(EcbsSolver, SettlesAKnotWhoseTreeDoesNotEnd) {
     options.expansion_limit = 200000;
     EXPECT_NE(EcbsSolver(options).solve(instance, Deadline(60)).certified_by, "ecbs/joint");
   }
+}
+
+// Four robots in a corridor whose rooms are 20 cells away have far too many joint states; `auto`,
+// which had its plan after 0.03 s, kept it back until the time limit.
+TEST(EcbsSolver, ASearchOverJointStatesDidNotKeepTheLimitOfExpansions) {
+  const std::string corridor(44, '.');
+  std::string at_start = corridor;
+  at_start.replace(21, 3, "a.b");
+  std::string at_goal = corridor;
+  at_goal.replace(21, 3, "b.a");
+  at_start.front() = at_goal.back() = 'c';
+  at_start.back() = at_goal.front() = 'd';
+  const std::string rooms = ".." + std::string(40, '#') + "..";
+  const Instance instance =
+      test::instanceFromAscii({rooms, at_start, rooms}, {rooms, at_goal, rooms});
+  SolverOptions options;
+  options.suboptimality = 1;
+  options.objective = Objective::kSumOfCosts;
+  options.expansion_limit = 50000;
+  const SolveResult result = EcbsSolver(options).solve(instance, Deadline(60));
+  EXPECT_EQ(result.termination, Termination::kNoPlanFound);
+  EXPECT_LE(result.low_level_expansions, 60000U);
 }
 
 TEST(EcbsSolver, ProvesThatASwapInACorridorIsImpossible) {

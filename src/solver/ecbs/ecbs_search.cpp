@@ -99,7 +99,9 @@ bool EcbsSearch::searchJointStates(SolveResult& result) {
   JointSettings settings;
   settings.objective = settings_.objective;
   settings.states = kJointStates;
-  settings.expansion_limit = kJointMoves;
+  // The rest of the run's limit, and one look more to use it up.
+  settings.expansion_limit =
+      std::min(kJointMoves / kMovesAnExpansion, low_level_.left()) * kMovesAnExpansion + 1;
   JointSearch search(instance_, std::move(task), settings, run_.deadline);
   const JointSearch::Outcome outcome = search.run();
   low_level_.count(search.expansions() / kMovesAnExpansion);

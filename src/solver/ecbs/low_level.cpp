@@ -1,5 +1,7 @@
 #include "solver/ecbs/low_level.h"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace split_mapf {
@@ -53,6 +55,11 @@ bool LowLevel::stopped() {
 void LowLevel::count(std::uint64_t expansions) {
   expansions_ += expansions;
   exhausted_ = settings_.expansion_limit > 0 && expansions_ > settings_.expansion_limit;
+}
+
+std::uint64_t LowLevel::left() const {
+  if (settings_.expansion_limit == 0) return std::numeric_limits<std::uint64_t>::max();
+  return settings_.expansion_limit - std::min(settings_.expansion_limit, expansions_);
 }
 
 Path LowLevel::run(const SearchQuery& query) {

@@ -32,6 +32,8 @@ class LowLevel {
   /// Adds work done elsewhere to the expansions of this run.
   void count(std::uint64_t expansions);
   bool exhausted() const { return exhausted_; }
+  /// Expansions until the limit.
+  std::uint64_t left() const;
   std::uint64_t expansions() const { return expansions_; }
 
  private:
