@@ -10,6 +10,15 @@ bool isUnderWay(const ExecutionGraph& graph, std::uint32_t robot) {
   return graph.progress(robot) > 0;
 }
 
+/// The moves of a path as visits; its first step is that of the plan's `begin`.
+void appendMoves(const Path& path, std::uint32_t robot, std::uint32_t begin,
+                 std::vector<Visit>& visits) {
+  for (std::uint32_t t = 1; t < path.size(); ++t) {
+    if (path[t] == path[t - 1]) continue;
+    visits.push_back({path[t], robot, begin + t, kNoVisit, kNoVisit});
+  }
+}
+
 }  // namespace
 
 bool isDownwardClosed(const ExecutionGraph& graph, const Cut& cut) {
@@ -87,11 +96,11 @@ ExecutionGraph concatenate(const ExecutionGraph& graph, const Cut& cut, const Pl
     for (VisitId v = graph.at(robot); v <= cut[robot]; ++v) {
       visits.push_back({order[v].vertex, robot, order[v].step - least, kNoVisit, kNoVisit});
     }
-    const Path& path = plan.paths[robot];
-    for (std::uint32_t t = 1; t < path.size(); ++t) {
-      if (path[t] == path[t - 1]) continue;
-      visits.push_back({path[t], robot, most - least + t, kNoVisit, kNoVisit});
-    }
+    appendMoves(plan.paths[robot], robot, most - least, visits);
+  }
+  for (std::uint32_t robot = order.robots(); robot < plan.paths.size(); ++robot) {
+    visits.push_back({plan.paths[robot].front(), robot, 0, kNoVisit, kNoVisit});
+    appendMoves(plan.paths[robot], robot, most - least, visits);
   }
   Precedence joined = Precedence::fromVisits(std::move(visits), order.vertices());
   ExecutionGraph result(std::move(joined), graph.release());

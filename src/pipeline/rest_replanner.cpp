@@ -57,6 +57,9 @@ class RestRun {
 
   Cut promised() const {
     Cut cut = cutBefore(graph_, now_, question_.commit);
+    for (std::size_t robot = 0; robot < question_.promised.size(); ++robot) {
+      cut[robot] = std::max(cut[robot], question_.promised[robot]);
+    }
     return breaksRings() ? withoutRings(graph_, std::move(cut)) : cut;
   }
 

@@ -33,7 +33,9 @@ Precedence restBehind(const ExecutionGraph& graph, const Cut& cut);
 /// those up to the cut stay as they are, robots are where they are. A plan that is valid from the
 /// cut's vertices on may be put there whatever the robots' delays (proof obligation (d) of
 /// ExecutionGraph): its events wait for those of the cut, never the other way round.
-/// @param plan  begins where the cut ends. @pre the cut is downward-closed. Cost: O(events).
+/// @param plan  begins where the cut ends. Further paths in it are those of robots that join: they
+/// stand where these begin, and nobody comes there up to the cut. @pre the cut is downward-closed.
+/// Cost: O(events).
 ExecutionGraph concatenate(const ExecutionGraph& graph, const Cut& cut, const Plan& plan);
 
 }  // namespace split_mapf

@@ -70,6 +70,10 @@ class ExecutionGraph {
   /// The robot is under way from its first visit already, by leave of an execution that this one
   /// goes on with. @pre it is at its first visit and has a second one.
   void resume(std::uint32_t robot, float progress) { places_[robot].progress = progress; }
+  /// The same for a robot that has come to one of its visits meanwhile.
+  void resumeAt(std::uint32_t robot, VisitId visit, float progress) {
+    places_[robot] = {visit, progress};
+  }
 
  private:
   struct Place {

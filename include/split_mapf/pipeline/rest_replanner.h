@@ -30,6 +30,8 @@ struct ReplanQuestion {
   std::vector<Vertex> came_from;
   std::uint32_t commit = 1;  ///< [ticks] the events that begin before are promised, and stay
   bool avoid_rings = false;  ///< with a release above 0
+  /// What is promised whatever the forecast says, downward-closed; empty: nothing.
+  Cut promised;
 };
 
 /// What came of a replan.

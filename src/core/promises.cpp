@@ -1,0 +1,61 @@
+#include "split_mapf/core/promises.h"
+
+#include <algorithm>
+
+namespace split_mapf {
+namespace {
+
+/// One call of growPromises().
+class Growth {
+ public:
+  Growth(const ExecutionGraph& graph, const PromiseRule& rule, Cut& promised)
+      : graph_(graph), order_(graph.precedence()), rule_(rule), promised_(promised) {}
+
+  void run() {
+    for (std::uint32_t robot = 0; robot < order_.robots(); ++robot) {
+      while (mayGrow(robot)) promise(promised_[robot] + 1);
+    }
+  }
+
+ private:
+  bool mayGrow(std::uint32_t robot) const {
+    const VisitId last = promised_[robot];
+    if (last >= order_.last(robot) || last - graph_.at(robot) >= rule_.ahead) return false;
+    const Ring* const ring = graph_.ringOf(last + 1);
+    if (ring == nullptr) return graph_.isReleased(last + 1) && isOpen(last + 1);
+    return rule_.joint_rings && std::all_of(ring->begin(), ring->end(), [this](VisitId member) {
+             return graph_.at(order_[member].robot) + 1 >= member && isOpen(member);
+           });
+  }
+
+  bool isOpen(VisitId event) const {
+    const std::uint32_t robot = order_[event].robot;
+    if (rule_.held_back != nullptr && (*rule_.held_back)[robot]) return false;
+    if (rule_.limit != nullptr && event > (*rule_.limit)[robot]) return false;
+    return rule_.blocked == nullptr || !(*rule_.blocked)[order_[event].vertex];
+  }
+
+  /// An event, and the others of its ring.
+  void promise(VisitId event) {
+    promised_[order_[event].robot] = event;
+    const Ring* const ring = graph_.ringOf(event);
+    if (ring == nullptr) return;
+    for (const VisitId member : *ring) {
+      VisitId& last = promised_[order_[member].robot];
+      last = std::max(last, member);
+    }
+  }
+
+  const ExecutionGraph& graph_;
+  const Precedence& order_;
+  const PromiseRule& rule_;
+  Cut& promised_;
+};
+
+}  // namespace
+
+void growPromises(const ExecutionGraph& graph, const PromiseRule& rule, Cut& promised) {
+  Growth(graph, rule, promised).run();
+}
+
+}  // namespace split_mapf

@@ -1,0 +1,112 @@
+#include "split_mapf/io/execution_file.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "split_mapf/core/error.h"
+
+namespace split_mapf {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kFormat = "split_mapf execution 1";
+
+json toJson(const FleetSnapshot::Robot& robot) {
+  json sequences = json::array();
+  json cells = json::array();
+  json steps = json::array();
+  for (const FleetSnapshot::Visit& visit : robot.visits) {
+    sequences.push_back(visit.sequence);
+    cells.push_back({visit.cell.x, visit.cell.y});
+    steps.push_back(visit.step);
+  }
+  return {{"id", robot.id},
+          {"goal", {robot.goal.x, robot.goal.y}},
+          {"planned", robot.planned_sec},
+          {"paused", robot.paused},
+          {"next_sequence", robot.next_sequence},
+          {"sequences", std::move(sequences)},
+          {"cells", std::move(cells)},
+          {"steps", std::move(steps)}};
+}
+
+Cell cellOf(const json& pair) { return {pair.at(0).get<int>(), pair.at(1).get<int>()}; }
+
+FleetSnapshot::Robot robotOf(const json& from) {
+  FleetSnapshot::Robot robot;
+  robot.id = from.at("id").get<std::string>();
+  robot.goal = cellOf(from.at("goal"));
+  robot.planned_sec = from.at("planned").get<double>();
+  robot.paused = from.at("paused").get<bool>();
+  robot.next_sequence = from.at("next_sequence").get<std::uint32_t>();
+  const json& cells = from.at("cells");
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    robot.visits.push_back({from.at("sequences").at(i).get<std::uint32_t>(), cellOf(cells[i]),
+                            from.at("steps").at(i).get<std::uint32_t>()});
+  }
+  return robot;
+}
+
+[[noreturn]] void fail(const std::string& path, const std::string& what) {
+  throw InputError("the execution file '" + path + "' " + what);
+}
+
+}  // namespace
+
+void writeExecution(const std::string& path, const FleetSnapshot& snapshot) {
+  json robots = json::array();
+  for (const FleetSnapshot::Robot& robot : snapshot.robots) robots.push_back(toJson(robot));
+  json blocked = json::array();
+  for (const Cell cell : snapshot.blocked) blocked.push_back({cell.x, cell.y});
+  const json all = {{"format", kFormat},
+                    {"plan_id", snapshot.plan_id},
+                    {"size", {snapshot.width, snapshot.height}},
+                    {"elapsed", snapshot.elapsed_sec},
+                    {"step", snapshot.step_sec},
+                    {"release", snapshot.release},
+                    {"release_ahead", snapshot.release_ahead},
+                    {"blocked", std::move(blocked)},
+                    {"robots", std::move(robots)}};
+  const std::string fresh = path + ".new";
+  {
+    std::ofstream file(fresh, std::ios::binary | std::ios::trunc);
+    file << all.dump() << '\n';
+    file.flush();
+    if (!file) fail(fresh, std::string("cannot be written: ") + std::strerror(errno));
+  }
+  if (std::rename(fresh.c_str(), path.c_str()) != 0) {
+    fail(path, std::string("cannot be replaced: ") + std::strerror(errno));
+  }
+}
+
+std::optional<FleetSnapshot> readExecution(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return std::nullopt;
+  try {
+    const json all = json::parse(file);
+    if (all.at("format") != kFormat) fail(path, "has another format than this version reads");
+    FleetSnapshot snapshot;
+    snapshot.plan_id = all.at("plan_id").get<std::string>();
+    snapshot.width = all.at("size").at(0).get<std::uint32_t>();
+    snapshot.height = all.at("size").at(1).get<std::uint32_t>();
+    snapshot.elapsed_sec = all.at("elapsed").get<double>();
+    snapshot.step_sec = all.at("step").get<double>();
+    snapshot.release = all.at("release").get<double>();
+    snapshot.release_ahead = all.at("release_ahead").get<std::uint32_t>();
+    for (const json& cell : all.at("blocked")) snapshot.blocked.push_back(cellOf(cell));
+    for (const json& robot : all.at("robots")) snapshot.robots.push_back(robotOf(robot));
+    return snapshot;
+  } catch (const json::exception& error) {
+    fail(path, std::string("cannot be read: ") + error.what());
+  }
+}
+
+void removeExecution(const std::string& path) { std::remove(path.c_str()); }
+
+}  // namespace split_mapf

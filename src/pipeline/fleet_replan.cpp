@@ -1,0 +1,183 @@
+#include "split_mapf/pipeline/fleet_replan.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "pipeline/fleet_goals.h"
+#include "solver/search/ring_breaking.h"
+#include "split_mapf/core/error.h"
+
+namespace split_mapf {
+namespace {
+
+// Plans that are made to find one without rings.
+constexpr std::uint32_t kTriesAtRings = 4;
+
+/// The rows and columns of all vertices, row-major.
+std::vector<std::uint32_t> cellsOf(const Grid& grid) {
+  std::vector<std::uint32_t> cells(grid.size());
+  for (Vertex v = 0; v < grid.size(); ++v) {
+    const Cell cell = grid.cellOf(v);
+    cells[v] =
+        static_cast<std::uint32_t>(cell.y) * grid.width() + static_cast<std::uint32_t>(cell.x);
+  }
+  return cells;
+}
+
+std::uint32_t ringsOf(const ExecutionGraph& graph) {
+  return static_cast<std::uint32_t>(graph.rings().size());
+}
+
+/// One call of answerFleet().
+class FleetRun {
+ public:
+  FleetRun(const FleetQuestion& question, const Deadline& deadline)
+      : question_(question), deadline_(deadline) {
+    answer_.version = question.version;
+    answer_.anew = question.anew;
+    answer_.ground = question.ground;
+    const Precedence& order = question.graph.precedence();
+    for (std::uint32_t robot = 0; robot < order.robots(); ++robot) {
+      starts_.push_back(order[question.cut[robot]].vertex);
+    }
+  }
+
+  FleetAnswer improve() {
+    const Precedence& order = question_.graph.precedence();
+    std::vector<Vertex> goals;
+    for (std::uint32_t robot = 0; robot < order.robots(); ++robot) {
+      const bool goes = question_.takes_part[robot];
+      goals.push_back(goes ? order[order.last(robot)].vertex : starts_[robot]);
+    }
+    prepareGround(goals);
+    ReplanQuestion rest;
+    rest.graph = &question_.graph;
+    rest.stands = question_.stands;
+    rest.came_from = question_.came_from;
+    rest.commit = 0;
+    rest.avoid_rings = question_.avoid_rings;
+    rest.promised = question_.cut;
+    ReplanAnswer found = answer_.ground->replanner.replan(rest, deadline_);
+    answer_.rings = found.rings;
+    answer_.execution = std::move(found.execution);
+    return std::move(answer_);
+  }
+
+  FleetAnswer planAnew(const Planner& planner, PlanRequest request) {
+    starts_.insert(starts_.end(), question_.joiners.begin(), question_.joiners.end());
+    std::vector<bool> takes_part = question_.takes_part;
+    takes_part.resize(starts_.size(), true);
+    const auto open = openPart(question_.grid, question_.blocked);
+    answer_.faults.assign(starts_.size(), GoalFault::kNone);
+    for (std::size_t given_up = 0; given_up <= starts_.size(); ++given_up) {
+      FleetGoals chosen = chooseGoals(*open, question_.blocked, starts_, question_.goals,
+                                      takes_part, answer_.faults);
+      answer_.faults = std::move(chosen.faults);
+      setGround(open, chosen.goals);
+      const std::optional<std::uint32_t> hopeless = tryToPlan(planner, request);
+      if (!hopeless) break;
+      answer_.faults[*hopeless] = GoalFault::kNoWay;
+    }
+    return std::move(answer_);
+  }
+
+ private:
+  /// @return a robot whose goal nobody can bring it to, where that is why there is no plan.
+  std::optional<std::uint32_t> tryToPlan(const Planner& planner, PlanRequest request) {
+    request.seed += question_.budget.seed;
+    const bool breaks = question_.avoid_rings && question_.graph.release() > 0;
+    const std::string solver = request.solver;
+    for (std::uint32_t tries = 0; tries < (breaks ? kTriesAtRings : 1); ++tries) {
+      // Plans of robots that are planned one by one have fewer rings.
+      request.solver = tries % 2 == 0 ? solver : "prioritized";
+      const PlanReport report = planner.plan(answer_.ground->instance, request, deadline_);
+      if (!report.plan) {
+        if (answer_.execution) continue;
+        answer_.message = report.message.empty() ? toString(report.termination) : report.message;
+        if (tries == 0 && report.refusal) return whoGivesUp(*report.refusal);
+        continue;
+      }
+      keepBest(*report.plan, breaks);
+      if (!breaks || answer_.rings == 0 || deadline_.expired()) break;
+      ++request.seed;
+    }
+    return std::nullopt;
+  }
+
+  /// Of the robots that a refusal names one that is sent to a goal and may be sent elsewhere.
+  std::optional<std::uint32_t> whoGivesUp(const SolvabilityVerdict& refusal) const {
+    for (auto robot = refusal.robots.rbegin(); robot != refusal.robots.rend(); ++robot) {
+      const bool goes = *robot >= question_.takes_part.size() || question_.takes_part[*robot];
+      if (goes && answer_.faults[*robot] == GoalFault::kNone) return *robot;
+    }
+    return std::nullopt;
+  }
+
+  void keepBest(Plan plan, bool breaks) {
+    if (breaks) plan = breakRings(answer_.ground->instance, std::move(plan), {}, deadline_);
+    trimToArrival(plan);
+    ExecutionGraph joined = concatenate(question_.graph, question_.cut, plan);
+    const std::uint32_t rings = ringsOf(joined);
+    if (answer_.execution && answer_.rings <= rings) return;
+    answer_.message.clear();
+    answer_.rings = rings;
+    answer_.execution = std::move(joined);
+  }
+
+  /// Keeps the ground as long as cells and goals are the same.
+  void prepareGround(const std::vector<Vertex>& goals) {
+    const bool same = answer_.ground && answer_.ground->blocked == question_.blocked &&
+                      answer_.ground->instance.goals() == goals;
+    if (!same) setGround(openPart(question_.grid, question_.blocked), goals);
+  }
+
+  void setGround(std::shared_ptr<const Grid> open, const std::vector<Vertex>& goals) {
+    answer_.ground = std::make_shared<FleetGround>(
+        std::move(open), starts_, goals, question_.blocked, question_.times, question_.budget);
+  }
+
+  const FleetQuestion& question_;
+  const Deadline& deadline_;
+  std::vector<Vertex> starts_;
+  FleetAnswer answer_;
+};
+
+}  // namespace
+
+FleetGround::FleetGround(std::shared_ptr<const Grid> open, const std::vector<Vertex>& starts,
+                         const std::vector<Vertex>& goals, std::vector<bool> is_blocked,
+                         const MotionTimes& times, const ReplanBudget& budget)
+    : instance(Instance::fromVertices(std::move(open), starts, goals)),
+      blocked(std::move(is_blocked)),
+      replanner(instance, times, budget) {}
+
+std::shared_ptr<const Grid> openPart(const std::shared_ptr<const Grid>& grid,
+                                     const std::vector<bool>& blocked) {
+  if (std::find(blocked.begin(), blocked.end(), true) == blocked.end()) return grid;
+  std::vector<std::pair<Vertex, Vertex>> edges;
+  for (Vertex v = 0; v < grid->size(); ++v) {
+    if (blocked[v]) continue;
+    for (const Vertex next : grid->graph().neighbours(v)) {
+      if (v < next && !blocked[next]) edges.emplace_back(v, next);
+    }
+  }
+  return std::make_shared<const Grid>(grid->width(), grid->height(), cellsOf(*grid), edges);
+}
+
+FleetAnswer answerFleet(const FleetQuestion& question, const Planner& planner,
+                        const PlanRequest& request, const Deadline& deadline) {
+  FleetRun run(question, deadline);
+  if (!question.anew) return run.improve();
+  try {
+    return run.planAnew(planner, request);
+  } catch (const InputError& error) {
+    FleetAnswer answer;
+    answer.version = question.version;
+    answer.anew = true;
+    answer.message = error.what();
+    answer.ground = question.ground;
+    return answer;
+  }
+}
+
+}  // namespace split_mapf

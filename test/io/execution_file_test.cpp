@@ -1,0 +1,66 @@
+#include "split_mapf/io/execution_file.h"
+
+#include <gtest/gtest.h>
+
+#include "io/temporary_files.h"
+#include "split_mapf/core/error.h"
+
+namespace split_mapf {
+namespace {
+
+class ExecutionFile : public test::FileTest {};
+
+TEST_F(ExecutionFile, GivesBackWhatWasWritten) {
+  const std::string path = pathOf("fleet.json");
+  EXPECT_FALSE(readExecution(path));
+  FleetSnapshot snapshot;
+  snapshot.plan_id = "fleet \"1\"";
+  snapshot.width = 4;
+  snapshot.height = 2;
+  snapshot.elapsed_sec = 12.25;
+  snapshot.step_sec = 0.5;
+  snapshot.release = 0.7;
+  snapshot.release_ahead = 3;
+  snapshot.blocked = {{3, 1}};
+  snapshot.robots.push_back({"r0", {2, 0}, 3.5, true, 9, {{4, {0, 0}, 0}, {7, {1, 0}, 2}}});
+  writeExecution(path, snapshot);
+  const auto read = readExecution(path);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->plan_id, snapshot.plan_id);
+  EXPECT_EQ(read->width, 4U);
+  EXPECT_EQ(read->height, 2U);
+  EXPECT_EQ(read->elapsed_sec, 12.25);
+  EXPECT_EQ(read->step_sec, 0.5);
+  EXPECT_EQ(read->release, 0.7);
+  EXPECT_EQ(read->release_ahead, 3U);
+  ASSERT_EQ(read->blocked.size(), 1U);
+  EXPECT_EQ(read->blocked[0], (Cell{3, 1}));
+  ASSERT_EQ(read->robots.size(), 1U);
+  const FleetSnapshot::Robot& robot = read->robots[0];
+  EXPECT_EQ(robot.id, "r0");
+  EXPECT_EQ(robot.goal, (Cell{2, 0}));
+  EXPECT_EQ(robot.planned_sec, 3.5);
+  EXPECT_TRUE(robot.paused);
+  EXPECT_EQ(robot.next_sequence, 9U);
+  ASSERT_EQ(robot.visits.size(), 2U);
+  EXPECT_EQ(robot.visits[1].sequence, 7U);
+  EXPECT_EQ(robot.visits[1].cell, (Cell{1, 0}));
+  EXPECT_EQ(robot.visits[1].step, 2U);
+  removeExecution(path);
+  EXPECT_FALSE(readExecution(path));
+}
+
+TEST_F(ExecutionFile, NamesWhatIsWrong) {
+  for (const char* text : {"", "{}", "[1]", "{\"format\": \"other\"}", "{\"format\""}) {
+    try {
+      readExecution(file("bad.json", text));
+      ADD_FAILURE() << text;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("bad.json"), std::string::npos);
+    }
+  }
+  EXPECT_THROW(writeExecution("/nowhere/fleet.json", {}), InputError);
+}
+
+}  // namespace
+}  // namespace split_mapf

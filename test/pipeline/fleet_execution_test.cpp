@@ -1,0 +1,252 @@
+#include "split_mapf/pipeline/fleet_execution.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "pipeline/fleet_world.h"
+#include "split_mapf/core/error.h"
+#include "support/ascii_grid.h"
+#include "support/long_run.h"
+#include "support/random_plan.h"
+
+namespace split_mapf {
+namespace {
+
+using test::FleetWorld;
+
+FleetOptions optionsOf(std::uint64_t seed) {
+  FleetOptions options;
+  options.release = seed % 3 == 0 ? 0.7071 : 0.5;
+  options.replan_period_sec = 3;
+  options.progress_timeout_sec = 2;
+  options.budget = {3000, seed};
+  options.release_ahead = 1 + static_cast<std::uint32_t>(seed % 3);
+  return options;
+}
+
+std::vector<std::vector<std::string>> maps() {
+  return {
+      {"........", ".##..##.", "........", ".##..##.", "........"},
+      {"......", "......", "......", "......", "......"},
+      {".........", ".#.#.#.#.", ".........", ".#.#.#.#.", "........."},
+      {"............", ".####..####.", "............", "............", ".####..####.",
+       "............"},
+      {"...........", "####.#.####", "...........", "...........", "####.#.####", "..........."}};
+}
+
+struct Scene {
+  std::shared_ptr<const Grid> grid;
+  Plan plan;
+};
+
+Scene sceneOf(std::uint64_t seed) {
+  RandomEngine engine(seed);
+  const auto all = maps();
+  Scene run;
+  run.grid = test::gridFromAscii(all[seed % all.size()]);
+  run.plan = test::randomValidPlan(*run.grid, 4 + static_cast<std::uint32_t>(drawBelow(engine, 6)),
+                                   14, engine);
+  return run;
+}
+
+/// Whoever takes part and has a way has come to its goal, and no robot was ever too close.
+void expectWell(FleetWorld& world) {
+  EXPECT_TRUE(world.checker_.isClear()) << world.checker_.closest();
+  EXPECT_EQ(world.fleet_->trouble(), "");
+  const std::vector<FleetRobotStatus> all = world.fleet_->status(world.now_);
+  for (std::uint32_t i = 0; i < all.size(); ++i) {
+    if (all[i].absence != Absence::kNone || all[i].fault != GoalFault::kNone) continue;
+    EXPECT_TRUE(all[i].arrived) << world.fleet_->id(i);
+  }
+}
+
+TEST(FleetExecution, BringsLateRobotsToTheirGoals) {
+  const std::uint64_t seeds = test::isLongRun() ? 800 : 40;
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Scene run = sceneOf(seed);
+    FleetWorld world(run.grid, run.plan, optionsOf(seed), seed);
+    world.delay_one_in_ = 150;
+    ASSERT_TRUE(world.run(4000)) << world.fleet_->trouble();
+    expectWell(world);
+    for (const FleetRobotStatus& status : world.fleet_->status(world.now_)) {
+      EXPECT_EQ(status.fault, GoalFault::kNone);
+      EXPECT_EQ(status.absence, Absence::kNone);
+    }
+    for (const ReportFate fate : world.fates_) ASSERT_EQ(fate, ReportFate::kTaken);
+  }
+}
+
+TEST(FleetExecution, GoesOnWithoutTheDead) {
+  std::uint32_t anew = 0;
+  const std::uint64_t seeds = test::isLongRun() ? 1200 : 60;
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Scene run = sceneOf(seed);
+    FleetWorld world(run.grid, run.plan, optionsOf(seed), seed);
+    world.delay_one_in_ = 150;
+    const int when = static_cast<int>(drawBelow(world.engine_, 60));
+    for (int i = 0; i < when; ++i) world.tick();
+    world.die("r" + std::to_string(drawBelow(world.engine_, run.plan.paths.size())), seed % 2 == 0);
+    ASSERT_TRUE(world.run(6000)) << world.fleet_->trouble();
+    expectWell(world);
+    anew += world.anew_;
+  }
+  EXPECT_GT(anew, 10U);
+}
+
+TEST(FleetExecution, IsTakenUpAgainWhenItsConductorDies) {
+  const std::uint64_t seeds = test::isLongRun() ? 1200 : 60;
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Scene run = sceneOf(seed);
+    FleetWorld world(run.grid, run.plan, optionsOf(seed), seed);
+    world.delay_one_in_ = 200;
+    for (int times = 0; times < 3; ++times) {
+      const int when = static_cast<int>(drawBelow(world.engine_, 60));
+      for (int i = 0; i < when; ++i) world.tick();
+      if (times == 1 && seed % 3 == 0) world.die("r0", true);
+      // Nobody conducts for a while.
+      world.restart();
+    }
+    ASSERT_TRUE(world.run(6000)) << world.fleet_->trouble();
+    expectWell(world);
+  }
+}
+
+TEST(FleetExecution, LeadsAroundBlockedCellsAndPausedRobots) {
+  const std::uint64_t seeds = test::isLongRun() ? 800 : 40;
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Scene run = sceneOf(seed);
+    FleetWorld world(run.grid, run.plan, optionsOf(seed), seed);
+    for (int i = 0; i < 25; ++i) world.tick();
+    std::vector<bool> blocked(run.grid->size(), false);
+    for (int i = 0; i < 3; ++i) blocked[drawBelow(world.engine_, run.grid->size())] = true;
+    world.fleet_->setBlocked(blocked);
+    world.fleet_->pause(1, true);
+    for (int i = 0; i < 100; ++i) world.tick();
+    EXPECT_FALSE(world.fleet_->isFinished()) << "a robot is paused";
+    world.fleet_->pause(1, false);
+    world.fleet_->setBlocked(std::vector<bool>(run.grid->size(), false));
+    ASSERT_TRUE(world.run(6000)) << world.fleet_->trouble();
+    expectWell(world);
+    for (const FleetRobotStatus& status : world.fleet_->status(world.now_)) {
+      EXPECT_TRUE(status.arrived) << "all cells are free again";
+    }
+  }
+}
+
+/// A fleet on a corridor map, and its first promises.
+struct Small {
+  explicit Small(const std::vector<std::string>& rows, const std::vector<Path>& paths)
+      : grid(test::gridFromAscii(rows)) {
+    options.progress_timeout_sec = 2;
+    std::vector<std::string> ids;
+    for (std::size_t i = 0; i < paths.size(); ++i) ids.push_back("r" + std::to_string(i));
+    fleet = std::make_unique<FleetExecution>(grid, ids, Plan{paths}, options, 0);
+    fleet->advance(0);
+  }
+  void answer(double now) {
+    const auto question = fleet->ask(now);
+    ASSERT_TRUE(question);
+    PlanRequest request;
+    request.split = "none";
+    fleet->take(answerFleet(*question, planner, request, {}), now);
+  }
+  std::shared_ptr<const Grid> grid;
+  FleetOptions options;
+  Executor executor{1};
+  Planner planner{builtinSolvers(), executor};
+  std::unique_ptr<FleetExecution> fleet;
+};
+
+TEST(FleetExecution, RefusesReportsThatCannotBe) {
+  // r1 follows r0 to the right.
+  Small small({"......"}, {{1, 2, 3, 4, 5}, {0, 1, 2, 3, 4}});
+  FleetExecution& fleet = *small.fleet;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(fleet.report(0, {0, nan, DriveStatus::kOk, {}}, 1), ReportFate::kNotANumber);
+  EXPECT_EQ(fleet.report(0, {0, 1.5, DriveStatus::kOk, {}}, 1), ReportFate::kNotANumber);
+  EXPECT_EQ(fleet.report(0, {0, 0, static_cast<DriveStatus>(9), {}}, 1), ReportFate::kNotANumber);
+  EXPECT_EQ(fleet.report(0, {77, 0, DriveStatus::kOk, {}}, 1), ReportFate::kNoSuchVisit);
+  EXPECT_EQ(fleet.report(0, {3, 0, DriveStatus::kOk, {}}, 1), ReportFate::kNotReleased);
+  EXPECT_EQ(fleet.report(1, {0, 0.1, DriveStatus::kOk, {}}, 1), ReportFate::kNotReleased);
+  EXPECT_EQ(fleet.report(0, {1, 0.3, DriveStatus::kOk, {}}, 1), ReportFate::kTaken);
+  EXPECT_EQ(fleet.report(0, {1, 0.3, DriveStatus::kOk, {}}, 1), ReportFate::kTaken) << "twice";
+  EXPECT_EQ(fleet.report(0, {1, 0.1, DriveStatus::kOk, {}}, 1), ReportFate::kBackwards);
+  EXPECT_EQ(fleet.report(0, {0, 0, DriveStatus::kOk, {}}, 1), ReportFate::kBackwards);
+  EXPECT_EQ(fleet.status(1)[0].absence, Absence::kNone);
+}
+
+TEST(FleetExecution, TakesARobotThatStraysForAnObstacleWhereItIs) {
+  Small small({".....", ".....", "....."}, {{10, 11, 12, 13, 14}, {0, 1, 2, 3, 4}});
+  EXPECT_EQ(small.fleet->report(0, {0, 0, DriveStatus::kOk, Cell{3, 0}}, 1), ReportFate::kAstray);
+  EXPECT_EQ(small.fleet->status(1)[0].absence, Absence::kAstray);
+  small.answer(1);
+  for (const RouteStep& step : small.fleet->route(1, 100)) EXPECT_NE(step.vertex, 3U);
+  EXPECT_EQ(small.fleet->status(1)[1].fault, GoalFault::kNone);
+  // It comes back by itself.
+  EXPECT_EQ(small.fleet->report(0, {0, 0, DriveStatus::kOk, Cell{0, 2}}, 2), ReportFate::kTaken);
+  EXPECT_EQ(small.fleet->status(2)[0].absence, Absence::kNone);
+}
+
+TEST(FleetExecution, LeadsABlockedRobotElsewhereByVisitsWithNewNumbers) {
+  Small small({"....", "...."}, {{0, 1, 2, 3}});
+  EXPECT_EQ(small.fleet->report(0, {0, 0, DriveStatus::kBlocked, {}}, 1), ReportFate::kTaken);
+  EXPECT_EQ(small.fleet->route(0, 0).size(), 1U) << "nothing is released to it";
+  small.answer(1);
+  const std::vector<RouteStep> route = small.fleet->route(0, 100);
+  ASSERT_EQ(route.size(), 6U);
+  EXPECT_EQ(route[1].vertex, 4U);
+  EXPECT_GT(route[1].sequence, 3U);
+  EXPECT_EQ(route.back().vertex, 3U);
+}
+
+TEST(FleetExecution, NamesGoalsThatCannotBeReached) {
+  Small small({"....."}, {{0, 1, 2, 3}, {4}});
+  std::vector<bool> blocked(5, false);
+  blocked[3] = true;
+  small.fleet->setBlocked(blocked);
+  small.answer(0);
+  EXPECT_EQ(small.fleet->status(0)[0].fault, GoalFault::kBlocked);
+  blocked[3] = false;
+  small.fleet->setBlocked(blocked);
+  small.answer(1);
+  EXPECT_EQ(small.fleet->status(1)[0].fault, GoalFault::kNone);
+}
+
+TEST(FleetExecution, LetsRobotsGoAndJoin) {
+  Small small({"....", "...."}, {{0, 1, 2, 3}, {2}});
+  // Without r1 the plan of r0 may be carried out: it would have had to wait for ever.
+  small.fleet->remove(1);
+  EXPECT_EQ(small.fleet->robots(), 1U);
+  EXPECT_NE(small.fleet->add("r0", 6, 7), "");
+  EXPECT_NE(small.fleet->add("new", 1, 7), "") << "promised to r0";
+  EXPECT_NE(small.fleet->add("new", 7, 3), "") << "the goal of r0";
+  EXPECT_EQ(small.fleet->add("new", 7, 4), "");
+  small.answer(1);
+  ASSERT_EQ(small.fleet->robots(), 2U);
+  EXPECT_EQ(small.fleet->id(1), "new");
+  EXPECT_EQ(small.fleet->route(1, 100).front().vertex, 7U);
+  EXPECT_EQ(small.fleet->route(1, 100).back().vertex, 4U);
+}
+
+TEST(FleetExecution, FindsSilentRobotsAndTakesThemBack) {
+  Small small({"....", "...."}, {{0, 1, 2, 3}, {4, 5, 6, 7}});
+  small.fleet->report(1, {0, 0, DriveStatus::kOk, {}}, 3);
+  small.fleet->advance(3);
+  EXPECT_EQ(small.fleet->status(3)[0].absence, Absence::kSilent);
+  EXPECT_EQ(small.fleet->status(3)[1].absence, Absence::kNone);
+  small.answer(3);
+  // What it was promised is still its own.
+  EXPECT_EQ(small.fleet->report(0, {2, 0, DriveStatus::kOk, {}}, 4), ReportFate::kTaken);
+  EXPECT_EQ(small.fleet->status(4)[0].absence, Absence::kNone);
+  small.answer(4);
+  EXPECT_EQ(small.fleet->route(0, 100).back().vertex, 3U);
+}
+
+}  // namespace
+}  // namespace split_mapf
