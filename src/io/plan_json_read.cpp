@@ -81,7 +81,45 @@ Cell cellOf(const Json& value, const Place& place) {
   return {coordinateOf(value[0], place, "x"), coordinateOf(value[1], place, "y")};
 }
 
+double lengthOf(const std::string& path, const Json& document, const char* key) {
+  const auto value = document.find(key);
+  if (value == document.end()) return 0;
+  if (!value->is_number() || !(value->get<double>() >= 0)) {
+    fail(path, std::string(key) + ": read " + shown(*value) + ", expected a number of 0 or more");
+  }
+  return value->get<double>();
+}
+
+MapPoint pointOf(const Json& value, const std::string& path, std::size_t robot, std::size_t step) {
+  if (!value.is_array() || value.size() != 2 || !value[0].is_number() || !value[1].is_number()) {
+    fail(path, "poses, robot " + std::to_string(robot) + ", step " + std::to_string(step) +
+                   ": read " + shown(value) + ", expected [x, y]");
+  }
+  return {value[0].get<double>(), value[1].get<double>()};
+}
+
 }  // namespace
+
+DiscClaims readDiscPlanJson(const std::string& path) {
+  const Json document = parse(path, readFile(path));
+  DiscClaims claims;
+  claims.robot_radius_m = lengthOf(path, document, "robot_radius");
+  claims.clearance_m = lengthOf(path, document, "clearance");
+  const auto lists = document.find("poses");
+  if (lists == document.end() || !lists->is_array()) {
+    fail(path, "read no list 'poses', expected the plan of robots that have size");
+  }
+  for (const Json& list : *lists) {
+    const std::size_t robot = claims.poses.size();
+    if (!list.is_array()) {
+      fail(path, "poses, robot " + std::to_string(robot) + ": read " + shown(list) +
+                     ", expected a list of points");
+    }
+    std::vector<MapPoint>& poses = claims.poses.emplace_back();
+    for (const Json& point : list) poses.push_back(pointOf(point, path, robot, poses.size()));
+  }
+  return claims;
+}
 
 CellPaths readPlanJson(const std::string& path) {
   const Json document = parse(path, readFile(path));

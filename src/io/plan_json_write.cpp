@@ -120,9 +120,40 @@ std::string pathRow(const Grid& grid, const Path& path) {
   return row + "]";
 }
 
-}  // namespace
+std::string poseRow(const std::vector<MapPoint>& poses) {
+  Json row = Json::array();
+  for (const MapPoint& p : poses) row.push_back({p.x, p.y});
+  return dumped(row);
+}
 
-void writePlanJson(std::ostream& out, const Grid& grid, const PlanReport& report) {
+void writeDiscs(std::ostream& out, const Grid& grid, const DiscResult& discs) {
+  const MapOrigin& origin = discs.origin;
+  writeField(out, "grid",
+             Json{{"resolution", discs.resolution_m},
+                  {"width", grid.width()},
+                  {"height", grid.height()},
+                  {"origin", Json::array({origin.x_m, origin.y_m, origin.yaw_rad})}});
+  writeField(out, "robot_radius", discs.robot_radius_m);
+  writeField(out, "clearance", discs.clearance_m);
+  writeField(out, "longest_step", discs.longest_step_m);
+  writeField(out, "step_duration", valueIf(discs.step_duration_sec > 0, discs.step_duration_sec));
+  writeField(out, "departure_steps", discs.departure_steps);
+  writeField(out, "arrival_steps", discs.arrival_steps);
+  writeField(out, "robots", discs.ids);
+  writeField(out, "radii", discs.radius_m);
+  writeField(out, "least_clearance", discs.least_clearance_m);
+}
+
+void writePoses(std::ostream& out, const DiscResult& discs) {
+  out << ",\n";
+  std::vector<std::string> rows;
+  for (const std::vector<MapPoint>& poses : discs.poses) rows.push_back(poseRow(poses));
+  writeList(out, "poses", rows);
+}
+
+/// @param discs  of robots that have size, or null.
+void writeWhole(std::ostream& out, const Grid& grid, const PlanReport& report,
+                const DiscResult* discs) {
   out << "{\n";
   writeRequest(out, report);
   writeCosts(out, report);
@@ -130,17 +161,37 @@ void writePlanJson(std::ostream& out, const Grid& grid, const PlanReport& report
   writeSubproblems(out, report);
   out << "  \"layout\": " << (report.layout ? layoutJson(grid, *report.layout, "  ") : "null")
       << ",\n";
+  if (discs != nullptr) writeDiscs(out, grid, *discs);
   std::vector<std::string> rows;
   if (report.plan) {
     for (const Path& path : report.plan->paths) rows.push_back(pathRow(grid, path));
   }
   writeList(out, "paths", rows);
+  if (discs != nullptr) writePoses(out, *discs);
   out << "\n}\n";
+}
+
+}  // namespace
+
+void writePlanJson(std::ostream& out, const Grid& grid, const PlanReport& report) {
+  writeWhole(out, grid, report, nullptr);
 }
 
 void writePlanJson(const std::string& path, const Grid& grid, const PlanReport& report) {
   std::ostringstream out;
   writePlanJson(out, grid, report);
+  writeFile(path, out.str());
+}
+
+void writePlanJson(std::ostream& out, const Grid& grid, const PlanReport& report,
+                   const DiscResult& discs) {
+  writeWhole(out, grid, report, &discs);
+}
+
+void writePlanJson(const std::string& path, const Grid& grid, const PlanReport& report,
+                   const DiscResult& discs) {
+  std::ostringstream out;
+  writePlanJson(out, grid, report, discs);
   writeFile(path, out.str());
 }
 

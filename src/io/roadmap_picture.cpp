@@ -4,6 +4,7 @@
 #include <string>
 
 #include "io/canvas.h"
+#include "io/raster_scale.h"
 #include "split_mapf/core/error.h"
 
 namespace split_mapf {
@@ -16,8 +17,6 @@ constexpr Colour kReachedColour{251, 250, 247};
 constexpr Colour kEdgeColour{92, 142, 205};
 constexpr Colour kVertexColour{28, 84, 160};
 constexpr Colour kRobotColour{232, 146, 38};
-constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 27U;
-constexpr std::uint32_t kMostCellPx = 256;
 
 Colour colourOf(CellReach cell) {
   switch (cell) {
@@ -33,22 +32,6 @@ Colour colourOf(CellReach cell) {
   return kReachedColour;
 }
 
-std::uint32_t cellSizeFor(const Roadmap& roadmap, std::uint32_t cell_px) {
-  if (cell_px > kMostCellPx) {
-    throw OptionError("a cell of " + std::to_string(cell_px) + " pixels, expected 1 to 256");
-  }
-  if (cell_px == 0) {
-    cell_px = std::clamp(1500 / std::max(roadmap.width, roadmap.height), 1U, 16U);
-  }
-  if (std::uint64_t{roadmap.width} * cell_px * roadmap.height * cell_px > kMostPixels) {
-    throw InputError("a picture of a map of " + std::to_string(roadmap.width) + "x" +
-                     std::to_string(roadmap.height) + " cells with " + std::to_string(cell_px) +
-                     " pixels a cell is too large, expected at most " +
-                     std::to_string(kMostPixels) + " pixels");
-  }
-  return cell_px;
-}
-
 }  // namespace
 
 Picture drawRoadmap(const Roadmap& roadmap, const Reach& reach, std::uint32_t cell_px) {
@@ -57,7 +40,7 @@ Picture drawRoadmap(const Roadmap& roadmap, const Reach& reach, std::uint32_t ce
     throw InputError("the reach of " + std::to_string(reach.cells.size()) +
                      " cells is not of the graph's map of " + std::to_string(cells));
   }
-  const std::uint32_t px = cellSizeFor(roadmap, cell_px);
+  const std::uint32_t px = rasterScaleFor(roadmap.width, roadmap.height, cell_px);
   Canvas canvas(roadmap.width * px, roadmap.height * px, kObstacleColour);
   for (std::size_t i = 0; i < cells; ++i) {
     canvas.fillRectangle(static_cast<std::uint32_t>(i % roadmap.width) * px,

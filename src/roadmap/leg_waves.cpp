@@ -22,7 +22,7 @@ bool keepApart(const Leg& a, const Leg& b, double separation) {
 
 }  // namespace
 
-LegWaves planWaves(const std::vector<Leg>& legs, double separation) {
+LegWaves planWaves(const std::vector<Leg>& legs, double clearance) {
   constexpr std::uint32_t kWaiting = 0xffffffffU;
   LegWaves result;
   result.waves.assign(legs.size(), kWaiting);
@@ -35,8 +35,8 @@ LegWaves planWaves(const std::vector<Leg>& legs, double separation) {
       const auto lets = [&](std::size_t j) {
         if (i == j) return true;
         const Place stands = result.waves[j] < wave ? legs[j].to : legs[j].from;
-        const Leg other = result.waves[j] == wave ? legs[j] : Leg{stands, stands};
-        return keepApart(legs[i], other, separation);
+        const Leg other = result.waves[j] == wave ? legs[j] : Leg{stands, stands, 0};
+        return keepApart(legs[i], other, legs[i].radius + legs[j].radius + clearance);
       };
       bool free = true;
       for (std::size_t j = 0; j < legs.size() && free; ++j) free = lets(j);

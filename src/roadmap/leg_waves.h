@@ -11,9 +11,10 @@ namespace split_mapf::roadmap {
 struct Leg {
   Place from;
   Place to;
+  double radius = 0;  ///< of the robot
 };
 
-/// In which wave each robot leaves its pose for its vertex, such that discs keep `separation` apart
+/// In which wave each robot leaves its pose for its vertex, such that discs keep apart
 /// from those that stand at their poses still, at their vertices already, or walk in the same wave.
 struct LegWaves {
   std::vector<std::uint32_t> waves;  ///< a robot
@@ -21,7 +22,8 @@ struct LegWaves {
   std::vector<std::uint32_t> stuck;  ///< robots that no order lets go
 };
 
-/// Lets in each wave go whom it can, in the order of the robots. Cost: O(waves * robots^2).
-LegWaves planWaves(const std::vector<Leg>& legs, double separation);
+/// Lets in each wave go whom it can, in the order of the robots. Centres keep both radii and the
+/// clearance apart. Cost: O(waves * robots^2).
+LegWaves planWaves(const std::vector<Leg>& legs, double clearance);
 
 }  // namespace split_mapf::roadmap

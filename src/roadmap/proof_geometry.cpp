@@ -46,13 +46,13 @@ Nearest nearestTo(const ObstacleRaster& raster, Point a, Point b, double far_m) 
   const double height = raster.height * side;
   const double border = std::min({a.real(), b.real(), width - a.real(), width - b.real(), a.imag(),
                                   b.imag(), height - a.imag(), height - b.imag()});
-  if (border < far_m) return {border, true, {}};
+  if (border <= 0) return {border, true, {}};
   const auto index = [side](double metre, std::uint32_t end) {
     return static_cast<std::int32_t>(std::clamp(std::floor(metre / side), 0.0, end - 1.0));
   };
   const std::int32_t right = index(std::max(a.real(), b.real()) + far_m, raster.width);
   const std::int32_t bottom = index(std::max(a.imag(), b.imag()) + far_m, raster.height);
-  Nearest nearest{far_m, false, {}};
+  Nearest nearest{std::min(border, far_m), border < far_m, {}};
   for (std::int32_t y = index(std::min(a.imag(), b.imag()) - far_m, raster.height); y <= bottom;
        ++y) {
     for (std::int32_t x = index(std::min(a.real(), b.real()) - far_m, raster.width); x <= right;

@@ -27,6 +27,7 @@ constexpr double kRounding = 1e-6;
 // Chains: an edge is a little longer than robots have to keep apart, and not too long for a step.
 constexpr double kShortestEdge = 1.01;
 constexpr double kLongestEdge = 1.75;  // spacings
+constexpr double kLeastRadius = 1e-3;  // cells
 // Several offsets are tried where that takes little time; on a large map one misses about as much
 // as another.
 constexpr std::uint32_t kMostOffsets = 4;
@@ -155,7 +156,9 @@ std::uint32_t leastSpacingCells(const RoadmapOptions& options, double resolution
 std::optional<Roadmap> buildRoadmap(const ObstacleRaster& raster, const RoadmapOptions& options,
                                     const Deadline& deadline) {
   const std::uint32_t spacing = spacingCells(options, raster.resolution_m);
-  const double radius = (options.robot_radius_m + options.clearance_m) / raster.resolution_m;
+  // Robots without size may not cut across the corner of an obstacle either.
+  const double radius =
+      std::max(kLeastRadius, (options.robot_radius_m + options.clearance_m) / raster.resolution_m);
   const ClearSpace space(raster, radius, deadline);
   if (space.isEmpty()) return std::nullopt;
   requireSomeRoom(space, options);

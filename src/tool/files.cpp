@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "io/file_bytes.h"
 #include "split_mapf/core/error.h"
 
 namespace split_mapf::tool {
@@ -32,5 +33,7 @@ void requireReplaceable(const std::string& path) {
     throw InputError(path + ": is no plain file; one that can be replaced is expected");
   }
 }
+
+void writeTextFile(const std::string& path, const std::string& text) { writeFile(path, text); }
 
 }  // namespace split_mapf::tool

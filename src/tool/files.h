@@ -11,4 +11,7 @@ void requireWritable(const std::string& path);
 /// cannot be put in its place.
 void requireReplaceable(const std::string& path);
 
+/// Writes a whole file. @throws InputError naming the file and the system's reason.
+void writeTextFile(const std::string& path, const std::string& text);
+
 }  // namespace split_mapf::tool

@@ -2,14 +2,23 @@
 #include <filesystem>
 #include <iostream>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/generator.h"
 #include "split_mapf/core/wording.h"
 #include "split_mapf/io/movingai.h"
+#include "split_mapf/io/pose_scenario.h"
+#include "split_mapf/pipeline/disc_problem.h"
+#include "split_mapf/pipeline/pose_generator.h"
 #include "tool/command_line.h"
 #include "tool/commands.h"
+#include "tool/disc_task.h"
 #include "tool/files.h"
+#include "tool/robot_options.h"
 
 namespace split_mapf::tool {
 namespace {
@@ -29,22 +38,74 @@ GeneratorOptions readOptions(const CommandLine& line) {
   return options;
 }
 
+/// Poses on a map that is there already.
+ExitCode generatePoses(const CommandLine& line) {
+  for (const char* name : {"type", "width", "height", "density", "output-map"}) {
+    if (line.has(name)) {
+      throw OptionError(std::string("option --") + name + " makes a map; --map names one");
+    }
+  }
+  const std::string output = line.text("output-scen");
+  if (!isPoseScenario(output)) {
+    throw OptionError("option --output-scen: " + quote(output) +
+                      " was given, a .yaml is expected for poses");
+  }
+  requireWritable(output);
+  const RobotOptions options = readRobotOptions(line);
+  const GeneratorOptions defaults = readOptions(line);
+  const OccupancyMap map = readMapInMetres(line.text("map"), options);
+  PoseDraw draw;
+  draw.raster = std::make_shared<const ObstacleRaster>(obstaclesOf(map, options));
+  draw.roadmap = options.roadmap;
+  draw.snap_distance_m = options.snap_distance_m;
+  draw.robots = defaults.robots;
+  draw.seed = defaults.seed;
+  const DrawnPoses drawn = drawPoses(draw);
+  const MapFrame frame = frameOf(map);
+  std::vector<PosedRobot> robots;
+  for (std::size_t i = 0; i < drawn.robots.size(); ++i) {
+    const MapPoint start = toFrame(frame, drawn.robots[i].start);
+    const MapPoint goal = toFrame(frame, drawn.robots[i].goal);
+    robots.push_back({"r" + std::to_string(i),
+                      {start.x, start.y, drawn.start_yaws_rad[i]},
+                      {goal.x, goal.y, drawn.goal_yaws_rad[i]},
+                      std::nullopt});
+  }
+  const std::string what = counted(draw.robots, "robot") + " of radius " +
+                           inMetres(draw.roadmap.robot_radius_m) + ", seed " +
+                           std::to_string(draw.seed);
+  writePoseScenario(output, robots, what + ": id, start and goal [x m, y m, yaw rad]");
+  std::cout << what << ", " << drawn.left_out
+            << " more were drawn where no planning graph serves them: " << output << "\n";
+  return ExitCode::kOk;
+}
+
 }  // namespace
 
 ExitCode runGenerate(const Call& call) {
   const GeneratorOptions defaults;
   CommandLine line("generate",
                    "Generates a map and a scenario: robots with random distinct starts and goals,\n"
-                   "none of them cut off. The same options give the same files everywhere.");
+                   "none of them cut off. The same options give the same files everywhere.\n"
+                   "With --map: random poses of robots that have size on a map that is there.");
   line.offer("type", "NAME", "random, warehouse or rooms (" + toString(defaults.kind) + ")");
   line.offer("width", "CELLS", "width of the map (" + std::to_string(defaults.width) + ")");
   line.offer("height", "CELLS", "height of the map (" + std::to_string(defaults.height) + ")");
   line.offer("density", "SHARE", "share of blocked cells of a random map, 0 <= SHARE < 1 (0.1)");
   line.offer("agents", "N", "number of robots (" + std::to_string(defaults.robots) + ")");
   line.offer("seed", "N", "all randomness (" + std::to_string(defaults.seed) + ")");
-  line.require("output-map", "FILE", "write the map as MovingAI .map");
-  line.require("output-scen", "FILE", "write the scenario as MovingAI .scen");
+  line.offer("map", "FILE", "draw poses on this map_server .yaml");
+  declareRobotOptions(line);
+  line.offer("output-map", "FILE", "write the map as MovingAI .map");
+  line.require("output-scen", "FILE", "write the scenario as MovingAI .scen, or poses as .yaml");
   if (!line.parse(call.arguments)) return ExitCode::kOk;
+  if (line.has("map")) return generatePoses(line);
+  if (!line.has("output-map"))
+    throw OptionError("option --output-map, or --map, is needed; see split_mapf generate --help");
+  if (asksForRoadmap(readRobotOptions(line).roadmap)) {
+    throw OptionError("robots that have size need a map in metres: --map FILE.yaml");
+  }
+  requireNoGraphOptions(line);
   const std::string map_file = line.text("output-map");
   const std::string scenario_file = line.text("output-scen");
   const GeneratorOptions options = readOptions(line);

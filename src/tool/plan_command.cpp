@@ -4,22 +4,26 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <sstream>
+#include <string>
 #include <system_error>
 
 #include "solver/available/available_solvers.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/wording.h"
-#include "split_mapf/io/map_file.h"
 #include "split_mapf/io/movingai.h"
 #include "split_mapf/io/plan_json.h"
+#include "split_mapf/pipeline/disc_problem.h"
 #include "split_mapf/pipeline/planner.h"
 #include "tool/commands.h"
+#include "tool/disc_task.h"
 #include "tool/files.h"
 #include "tool/memory_limit.h"
 #include "tool/plan_options.h"
 #include "tool/plan_summary.h"
 #include "tool/progress_line.h"
+#include "tool/robot_options.h"
 #include "tool/stop_signals.h"
 
 namespace split_mapf::tool {
@@ -40,15 +44,9 @@ std::unique_ptr<Executor> startExecutor(std::uint32_t threads) {
   }
 }
 
-Instance readInstance(const PlanOptions& options, Deadline::Clock::time_point begin_of_call) {
-  const ReadingGuard guard(remainingSec(options, begin_of_call));
-  const std::shared_ptr<const Grid> grid = readMap(options.map_file);
-  const Scenario scenario = readMovingAiScenario(options.scenario_file, *grid, options.agents);
-  return Instance(grid, scenario.starts, scenario.goals);
-}
-
-/// The report of a call that ran out of memory outside the planner.
-PlanReport outOfMemory(const PlanRequest& request, std::uint32_t robots, const char* where) {
+/// The report of a call that ended outside the planner.
+PlanReport endedBefore(const PlanRequest& request, std::uint32_t robots, Termination how,
+                       const std::string& message) {
   PlanReport report;
   report.solver = request.solver;
   report.split = request.split;
@@ -56,9 +54,35 @@ PlanReport outOfMemory(const PlanRequest& request, std::uint32_t robots, const c
   report.seed = request.seed;
   report.threads = request.threads;
   report.robots = robots;
-  report.termination = Termination::kMemoryLimit;
-  report.message = std::string("memory ran out while ") + where;
+  report.termination = how;
+  report.message = message;
   return report;
+}
+
+PlanReport outOfMemory(const PlanRequest& request, std::uint32_t robots, const char* where) {
+  return endedBefore(request, robots, Termination::kMemoryLimit,
+                     std::string("memory ran out while ") + where);
+}
+
+/// What robots that cannot be brought onto the planning graph mean for the call.
+/// @throws the error itself where it is the input that is wrong.
+Termination meaningOf(const AttachmentError& error) {
+  bool cut_off = false;
+  for (const AttachmentFault& fault : error.faults()) {
+    if (fault.kind == AttachmentFaultKind::kOutsideMap ||
+        fault.kind == AttachmentFaultKind::kTooNearObstacle ||
+        fault.kind == AttachmentFaultKind::kDiscsOverlap) {
+      throw AttachmentError(error);
+    }
+    cut_off = cut_off || isCutOff(fault);
+  }
+  return cut_off ? Termination::kUnsolvable : Termination::kNoPlanFound;
+}
+
+std::string joined(const std::vector<std::string>& messages) {
+  std::string text;
+  for (const std::string& message : messages) text += (text.empty() ? "" : "; ") + message;
+  return text;
 }
 
 /// One planning call with what has to live through it.
@@ -90,45 +114,117 @@ class PlanCall {
   PlanReport plan() {
     const Planner planner(availableSolvers(), *executor_);
     planner.requireValid(options_.request);  // before files are read for nothing
-    try {
-      instance_.emplace(readInstance(options_, begin_of_call_));
-    } catch (const std::bad_alloc&) {
-      liftMemoryLimit();
-      return outOfMemory(options_.request, options_.agents.value_or(0), "reading files");
+    if (std::optional<PlanReport> end = readFiles()) return std::move(*end);
+    if (discs_) {
+      if (std::optional<PlanReport> end = attachRobots()) return std::move(*end);
     }
     PlanListener listener;
     if (progress_) {
       listener.progress = [this](const PlanProgress& progress) { progress_->update(progress); };
     }
     if (options_.write_better) {
-      listener.better_plan = [this](const PlanReport& report) { replaceOutput(report); };
+      listener.better_plan = [this](const PlanReport& report) {
+        std::ostringstream text;
+        writeText(text, report);
+        replaceOutput(text.str());
+      };
     }
     const Deadline deadline(remainingSec(options_, begin_of_call_), stop_);
     try {
-      return planner.plan(*instance_, options_.request, deadline, listener);
+      PlanReport report = planner.plan(*instance_, options_.request, deadline, listener);
+      addRoadmapStage(report);
+      return report;
     } catch (const std::bad_alloc&) {
       liftMemoryLimit();
       return outOfMemory(options_.request, instance_->robots(), "planning");
     }
   }
 
-  void write(const PlanReport& report) const {
-    if (options_.output_file.empty()) return;
-    const Grid no_grid(1, 1, {true});  // stands in where memory ran out before the map was read
-    const Grid& grid = instance_ ? instance_->grid() : no_grid;
-    if (options_.output_file == "-") {
-      writePlanJson(std::cout, grid, report);
-    } else if (options_.write_better && instance_) {
-      replaceOutput(report);
-    } else {
-      writePlanJson(options_.output_file, grid, report);
+  /// The report, where that is the end.
+  std::optional<PlanReport> readFiles() {
+    try {
+      const ReadingGuard guard(remainingSec(options_, begin_of_call_));
+      if (options_.on_roadmap) {
+        discs_.emplace(readDiscFiles(options_.map_file, options_.scenario_file, options_.agents,
+                                     options_.robots));
+        return std::nullopt;
+      }
+      const std::shared_ptr<const Grid> grid = readMapOfPoints(options_.map_file, options_.robots);
+      const Scenario scenario =
+          readMovingAiScenario(options_.scenario_file, *grid, options_.agents);
+      instance_.emplace(grid, scenario.starts, scenario.goals);
+      return std::nullopt;
+    } catch (const std::bad_alloc&) {
+      liftMemoryLimit();
+      return outOfMemory(options_.request, options_.agents.value_or(0), "reading files");
     }
   }
 
+  /// Likewise. @throws AttachmentError for robots that stand wrong.
+  std::optional<PlanReport> attachRobots() {
+    const auto begin = Deadline::Clock::now();
+    const Deadline deadline(remainingSec(options_, begin_of_call_), stop_);
+    const auto robots = static_cast<std::uint32_t>(discs_->robots.size());
+    const PlanRequest& request = options_.request;
+    try {
+      problem_.emplace(discs_->task, deadline);
+      instance_.emplace(problem_->instance());
+      const std::chrono::duration<double> taken = Deadline::Clock::now() - begin;
+      roadmap_sec_ = taken.count();
+      return std::nullopt;
+    } catch (const AttachmentError& error) {
+      return endedBefore(request, robots, meaningOf(error), joined(error.messages()));
+    } catch (const Interrupted&) {
+      const bool cancelled = deadline.stopRequested();
+      return endedBefore(request, robots,
+                         cancelled ? Termination::kCancelled : Termination::kTimeout,
+                         "before the planning graph was done");
+    } catch (const std::bad_alloc&) {
+      liftMemoryLimit();
+      return outOfMemory(request, robots, "building the planning graph");
+    }
+  }
+
+  void addRoadmapStage(PlanReport& report) const {
+    if (!problem_) return;
+    report.stages.insert(report.stages.begin(), {"roadmap", roadmap_sec_});
+    report.runtime_sec += roadmap_sec_;
+    if (!report.plan) return;
+    report.first_plan_sec += roadmap_sec_;
+    report.message +=
+        "; planning graph of " + counted(problem_->roadmap().cells.size(), "vertex", "vertices") +
+        ", a step is at most " + inMetres(problem_->longestStep()) + " long, " +
+        counted(problem_->attachment().departure.steps, "step") + " of legs before and " +
+        counted(problem_->attachment().arrival.steps, "step") + " behind";
+  }
+
+  void write(const PlanReport& report) const {
+    if (options_.output_file.empty() && !problem_) return;
+    std::ostringstream text;
+    writeText(text, report);  // robots that have size are checked here, before anything is said
+    if (options_.output_file.empty()) return;
+    if (options_.output_file == "-") {
+      std::cout << text.str();
+    } else if (options_.write_better && instance_) {
+      replaceOutput(text.str());
+    } else {
+      writeTextFile(options_.output_file, text.str());
+    }
+  }
+
+  void writeText(std::ostream& out, const PlanReport& report) const {
+    const Grid no_grid(1, 1, {true});  // stands in where memory ran out before the map was read
+    const Grid& grid = instance_ ? instance_->grid() : no_grid;
+    if (!problem_) return writePlanJson(out, grid, report);
+    writePlanJson(out, grid, report,
+                  discResultOf(discs_->map, discs_->robots, *problem_,
+                               options_.robots.robot_speed_mps, report));
+  }
+
   /// Whoever reads the file meets one whole result, the last or this one.
-  void replaceOutput(const PlanReport& report) const {
+  void replaceOutput(const std::string& text) const {
     const std::string part = options_.output_file + ".part";
-    writePlanJson(part, instance_->grid(), report);
+    writeTextFile(part, text);
     std::filesystem::rename(part, options_.output_file);
   }
 
@@ -137,6 +233,9 @@ class PlanCall {
   std::shared_ptr<const StopFlag> stop_;
   std::unique_ptr<Executor> executor_;
   std::optional<ProgressLine> progress_;
+  std::optional<DiscFiles> discs_;      ///< of robots that have size
+  std::optional<DiscProblem> problem_;  ///< likewise
+  double roadmap_sec_ = 0;
   std::optional<Instance> instance_;
 };
 

@@ -8,6 +8,8 @@
 #include <thread>
 
 #include "split_mapf/core/error.h"
+#include "split_mapf/io/pose_scenario.h"
+#include "split_mapf/pipeline/disc_problem.h"
 
 namespace split_mapf::tool {
 namespace {
@@ -26,7 +28,7 @@ std::string textOf(double number) {
 void declarePlanOptions(CommandLine& line) {
   const PlanRequest defaults;
   line.require("map", "FILE", "MovingAI .map, or map_server .yaml");
-  line.require("scen", "FILE", "MovingAI .scen");
+  line.require("scen", "FILE", "MovingAI .scen, or .yaml with poses of robots");
   line.offer("agents", "N", "plan for the first N rows of the scenario (all)");
   line.offer("solver", "NAME",
              "a solver that `split_mapf solvers` lists (" + defaults.solver + ")");
@@ -47,6 +49,8 @@ void declarePlanOptions(CommandLine& line) {
   line.offer("refine", "SECONDS",
              "share of the time limit that may go into improving a found plan (" +
                  textOf(defaults.refine_sec) + ")");
+  declareRobotOptions(line);
+  declareRobotSpeed(line);
   line.offerFlag("straighten", "of equally early paths take those with the fewest turns");
   line.offer("output", "FILE", "write the result as JSON; - for standard output");
   line.offerFlag("write-better",
@@ -64,6 +68,10 @@ PlanOptions readPlanOptions(const CommandLine& line) {
     options.agents = static_cast<std::uint32_t>(
         line.wholeNumber("agents", 0, 1, std::numeric_limits<std::uint32_t>::max()));
   }
+  options.robots = readRobotOptions(line);
+  options.on_roadmap =
+      asksForRoadmap(options.robots.roadmap) || isPoseScenario(options.scenario_file);
+  if (!options.on_roadmap) requireNoGraphOptions(line);
   PlanRequest& request = options.request;
   request.solver = line.text("solver", request.solver);
   request.suboptimality = line.number("suboptimality", request.suboptimality, 1);

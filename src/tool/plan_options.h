@@ -6,6 +6,7 @@
 
 #include "split_mapf/pipeline/planner.h"
 #include "tool/command_line.h"
+#include "tool/robot_options.h"
 
 namespace split_mapf::tool {
 
@@ -14,6 +15,9 @@ struct PlanOptions {
   std::string map_file;
   std::string scenario_file;
   std::optional<std::uint32_t> agents;
+  RobotOptions robots;
+  /// Whether a planning graph is needed: robots have size, or stand anywhere.
+  bool on_roadmap = false;
   PlanRequest request;  ///< `threads` is set
   std::optional<std::uint64_t> memory_limit_mib;
   std::string output_file;    ///< empty: none; "-": standard output

@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "split_mapf/core/error.h"
+#include "split_mapf/io/map_file.h"
 
 namespace split_mapf::tool {
 namespace {
@@ -45,12 +47,21 @@ RobotOptions readRobotOptions(const CommandLine& line) {
   options.ignore_specks = static_cast<std::uint32_t>(
       line.wholeNumber("ignore-specks", 0, 0, std::numeric_limits<std::uint32_t>::max()));
   options.occupancy.unknown_is_free = readEither(line, "unknown-space", "free", "blocked", false);
+  if (line.declares("robot-speed")) options.robot_speed_mps = line.number("robot-speed", 0, 0);
   return options;
 }
 
-bool asksForRoadmap(const RobotOptions& options) {
-  return options.roadmap.robot_radius_m > 0 || options.roadmap.cell_size_m > 0 ||
-         options.roadmap.clearance_m > 0;
+void declareRobotSpeed(CommandLine& line) {
+  line.offer("robot-speed", "M/S",
+             "the result says how long a step lasts at this speed (0: unknown)");
+}
+
+void requireNoGraphOptions(const CommandLine& line) {
+  for (const char* name : {"snap-distance", "passages", "robot-speed"}) {
+    if (!line.has(name)) continue;
+    throw OptionError(std::string("option --") + name +
+                      " needs robots that have size: --robot-radius or --cell-size");
+  }
 }
 
 ObstacleRaster obstaclesOf(const OccupancyMap& map, const RobotOptions& options) {
@@ -60,14 +71,23 @@ ObstacleRaster obstaclesOf(const OccupancyMap& map, const RobotOptions& options)
   return raster;
 }
 
+std::shared_ptr<const Grid> readMapOfPoints(const std::string& path, const RobotOptions& options) {
+  if (!options.occupancy.unknown_is_free && options.ignore_specks == 0) return readMap(path);
+  const OccupancyMap map = readMapInMetres(path, options);
+  const ObstacleRaster raster = obstaclesOf(map, options);
+  std::vector<bool> free(raster.blocked.size());
+  for (std::size_t i = 0; i < free.size(); ++i) free[i] = raster.blocked[i] == 0;
+  return std::make_shared<const Grid>(raster.width, raster.height, free);
+}
+
 OccupancyMap readMapInMetres(const std::string& path, const RobotOptions& options) {
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (extension == ".map") {
     throw InputError(path +
-                     ": a MovingAI map has no metres; robots that have size need a map_server "
-                     ".yaml");
+                     ": a MovingAI map has no metres; robots that have size, unknown cells and "
+                     "specks need a map_server .yaml");
   }
   return readMapServerMap(path, options.occupancy);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "split_mapf/io/map_server.h"
 #include "split_mapf/io/occupancy.h"
@@ -16,16 +17,23 @@ struct RobotOptions {
   double snap_distance_m = 0;  ///< 0: one spacing of the lattice
   std::uint32_t ignore_specks = 0;
   OccupancyRule occupancy;
+  double robot_speed_mps = 0;  ///< 0: unknown
 };
 
 /// Declares --robot-radius and all that goes with it.
 void declareRobotOptions(CommandLine& line);
 /// Reads them. @throws OptionError. @pre line.parse() returned true
 RobotOptions readRobotOptions(const CommandLine& line);
-/// Whether the robots have size, or their cells are to be larger than the map's.
-bool asksForRoadmap(const RobotOptions& options);
+/// Declares --robot-speed.
+void declareRobotSpeed(CommandLine& line);
+/// @throws OptionError naming an option that says how planning graphs are made, where none is made.
+void requireNoGraphOptions(const CommandLine& line);
 /// The map's obstacles as these robots see them.
 ObstacleRaster obstaclesOf(const OccupancyMap& map, const RobotOptions& options);
+/// The cells that robots without size may enter. As readMap(), and what it does with a MovingAI map
+/// stays as it is. @throws InputError likewise, and for a MovingAI map with options that it has no
+/// use for.
+std::shared_ptr<const Grid> readMapOfPoints(const std::string& path, const RobotOptions& options);
 /// Reads a map that has a resolution. @throws InputError for a MovingAI .map, which has none, and
 /// for whatever readMapServerMap() refuses.
 OccupancyMap readMapInMetres(const std::string& path, const RobotOptions& options);

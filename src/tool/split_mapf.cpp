@@ -7,6 +7,7 @@
 
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
+#include "split_mapf/pipeline/disc_problem.h"
 #include "tool/commands.h"
 
 namespace split_mapf::tool {
@@ -75,6 +76,9 @@ ExitCode runAndReport(const std::vector<std::string>& arguments,
   } catch (const InstanceError& e) {
     for (const InstanceFault& fault : e.faults())
       std::cerr << "split_mapf: " << fault.message << "\n";
+    return ExitCode::kBadInput;
+  } catch (const AttachmentError& e) {
+    for (const std::string& message : e.messages()) std::cerr << "split_mapf: " << message << "\n";
     return ExitCode::kBadInput;
   } catch (const InputError& e) {
     std::cerr << "split_mapf: " << e.what() << "\n";

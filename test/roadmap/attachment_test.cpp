@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "split_mapf/core/random.h"
 #include "support/course_checker.h"
@@ -25,6 +27,13 @@ World worldOf(const ObstacleRaster& raster) {
   RoadmapOptions options;
   options.robot_radius_m = kRadiusM;
   return {raster, *buildRoadmap(raster, options)};
+}
+
+/// In the frame of the raster, turned over: y goes up.
+std::string textOf(const AttachmentFault& fault) {
+  std::vector<std::string> names;
+  for (int i = 0; i < 20; ++i) names.push_back("robot " + std::to_string(i));
+  return explain(fault, names, {0, 0, 0, 10});
 }
 
 World openWorld() { return worldOf(rasterOf(200, 200, std::vector<bool>(40000, true), 0.05)); }
@@ -103,7 +112,7 @@ TEST(Attachment, RandomPosesLeaveAndArriveWithoutMeeting) {
       }
       attachment = attachRobots(world.raster, world.roadmap, robots);
     }
-    ASSERT_TRUE(attachment.faults.empty()) << attachment.faults.front().message;
+    ASSERT_TRUE(attachment.faults.empty()) << textOf(attachment.faults.front());
     attached += robots.size();
     for (const bool arriving : {false, true}) {
       const Legs& legs = arriving ? attachment.arrival : attachment.departure;
@@ -128,7 +137,7 @@ TEST(Attachment, TwoRobotsInWhatIsOneCellOfTheLatticeGetTwoVertices) {
   const MapPoint b{v.x + 0.55, v.y};
   const Attachment attachment =
       attachRobots(world.raster, world.roadmap, {{a, placeOf(world, 0)}, {b, placeOf(world, 60)}});
-  ASSERT_TRUE(attachment.faults.empty()) << attachment.faults.front().message;
+  ASSERT_TRUE(attachment.faults.empty()) << textOf(attachment.faults.front());
   EXPECT_NE(attachment.departure.vertices[0], attachment.departure.vertices[1]);
 }
 
@@ -151,7 +160,7 @@ TEST(Attachment, AStartHalfARadiusFromAWallStillGetsAwayAndSuchAGoalIsRefused) {
   const Attachment refused = attachRobots(world.raster, world.roadmap, {{free, at_wall}});
   ASSERT_EQ(refused.faults.size(), 1U);
   EXPECT_EQ(refused.faults[0].kind, AttachmentFaultKind::kTooNearObstacle);
-  EXPECT_EQ(refused.faults[0].message,
+  EXPECT_EQ(textOf(refused.faults[0]),
             "robot 0: its goal (0.15, 5) is 0.15 m from an obstacle, 0.3 m are needed");
 }
 
@@ -163,9 +172,9 @@ TEST(Attachment, NamesEveryRobotAtFault) {
   ASSERT_EQ(attachment.faults.size(), 3U);
   EXPECT_EQ(attachment.faults[0].robot, 1U);
   EXPECT_EQ(attachment.faults[0].kind, AttachmentFaultKind::kDiscsOverlap);
-  EXPECT_NE(attachment.faults[0].message.find("0.5 m from that of robot 0, 0.6 m are needed"),
+  EXPECT_NE(textOf(attachment.faults[0]).find("0.5 m from that of robot 0, 0.6 m are needed"),
             std::string::npos)
-      << attachment.faults[0].message;
+      << textOf(attachment.faults[0]);
   EXPECT_EQ(attachment.faults[1].kind, AttachmentFaultKind::kOutsideMap);
   EXPECT_EQ(attachment.faults[2].kind, AttachmentFaultKind::kOutsideMap);
 }
@@ -178,6 +187,36 @@ TEST(Attachment, SaysWhereNoEdgesLead) {
   const Attachment attachment = attachRobots(world.raster, world.roadmap, {{{2, 2}, {8, 2}}});
   ASSERT_EQ(attachment.faults.size(), 1U);
   EXPECT_EQ(attachment.faults[0].kind, AttachmentFaultKind::kOtherPiece);
+  EXPECT_TRUE(isCutOff(attachment.faults[0]));
+  EXPECT_EQ(textOf(attachment.faults[0]),
+            "robot 0: its goal (8, 8) is near no vertex to which edges lead from those near its "
+            "start; no free way leads from its start to its goal, however narrow");
+}
+
+TEST(Attachment, NamesTheBottleneckOfTheWidestWay) {
+  // Two rooms with doors of 10 and 11 cells; 12 are needed.
+  std::vector<bool> free(std::size_t{200} * 200, true);
+  for (std::size_t y = 0; y < 200; ++y) {
+    free[y * 200 + 100] = (y >= 20 && y < 30) || (y >= 150 && y < 161);
+  }
+  const World world = worldOf(rasterOf(200, 200, free, kResolutionM));
+  const Attachment attachment = attachRobots(world.raster, world.roadmap, {{{2, 2}, {8, 2}}});
+  ASSERT_EQ(attachment.faults.size(), 1U);
+  EXPECT_TRUE(isCutOff(attachment.faults[0]));
+  EXPECT_NE(textOf(attachment.faults[0])
+                .find("the widest way from its start to its goal has 0.275 m to an obstacle at "
+                      "(5.025, 2.225), 0.3 m needed"),
+            std::string::npos)
+      << textOf(attachment.faults[0]);
+}
+
+TEST(Attachment, ASmallRobotStandsWhereTheLargestCouldNot) {
+  const World world = openWorld();
+  const MapPoint corner{0.12, 0.12};
+  EXPECT_FALSE(attachRobots(world.raster, world.roadmap, {{{5, 5}, corner}}).faults.empty());
+  const Attachment small =
+      attachRobots(world.raster, world.roadmap, {{{5, 5}, corner, 0.1}, {{3, 3}, {0.5, 0.35}}});
+  EXPECT_TRUE(small.faults.empty()) << textOf(small.faults.front());
 }
 
 }  // namespace

@@ -1,13 +1,17 @@
 #pragma once
 
+#include <cstdint>
 #include <iosfwd>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "split_mapf/core/grid.h"
 #include "split_mapf/core/layout.h"
 #include "split_mapf/core/plan_report.h"
 #include "split_mapf/io/cell_paths.h"
+#include "split_mapf/io/map_server.h"
+#include "split_mapf/roadmap/map_frame.h"
 
 namespace split_mapf {
 
@@ -22,6 +26,42 @@ namespace split_mapf {
 void writePlanJson(std::ostream& out, const Grid& grid, const PlanReport& report);
 /// The same into a file. @throws InputError when it cannot be written in full.
 void writePlanJson(const std::string& path, const Grid& grid, const PlanReport& report);
+
+/// What a result says of robots that have size, besides; lengths in metres.
+struct DiscResult {
+  double resolution_m = 0;  ///< of the map
+  MapOrigin origin;
+  double robot_radius_m = 0;  ///< of the largest robot
+  double clearance_m = 0;
+  double longest_step_m = 0;                 ///< that a robot covers in one step at most
+  double step_duration_sec = 0;              ///< 0: unknown
+  std::uint32_t departure_steps = 0;         ///< of legs, before `paths` begin
+  std::uint32_t arrival_steps = 0;           ///< of legs, when all `paths` have ended
+  std::vector<std::string> ids;              ///< a robot
+  std::vector<double> radius_m;              ///< a robot
+  std::vector<double> least_clearance_m;     ///< a robot; empty without a plan
+  std::vector<std::vector<MapPoint>> poses;  ///< a robot, in the map's frame; empty likewise
+};
+
+/// The same for robots that have size: in front of `paths`, which names cells of the map, also
+/// `grid` (resolution, width, height, origin [x, y, yaw]), `robot_radius`, `clearance`,
+/// `longest_step`, `step_duration` (null: unknown), `departure_steps`, `arrival_steps`, `robots`
+/// (ids), `radii`, `least_clearance`; behind it `poses`, a point [x, y] a step, legs included.
+/// @pre `grid` is the planning graph.
+void writePlanJson(std::ostream& out, const Grid& grid, const PlanReport& report,
+                   const DiscResult& discs);
+void writePlanJson(const std::string& path, const Grid& grid, const PlanReport& report,
+                   const DiscResult& discs);
+
+/// What such a file claims of robots that have size.
+struct DiscClaims {
+  double robot_radius_m = 0;
+  double clearance_m = 0;
+  std::vector<std::vector<MapPoint>> poses;
+};
+/// Reads it. @throws InputError as readPlanJson(), and "path: ..." for a missing `poses`, a point
+/// that is no pair of numbers, and a radius or clearance that is no number of 0 or more.
+DiscClaims readDiscPlanJson(const std::string& path);
 
 /// Reads the `paths` of such a file; the other fields are left alone. What the paths claim is not
 /// judged: an empty path, a jump or a cell outside the map is validate()'s to report.

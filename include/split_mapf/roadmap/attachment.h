@@ -1,24 +1,23 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "split_mapf/core/deadline.h"
+#include "split_mapf/roadmap/bottleneck.h"
+#include "split_mapf/roadmap/map_frame.h"
 #include "split_mapf/roadmap/obstacle_raster.h"
 #include "split_mapf/roadmap/roadmap.h"
 
 namespace split_mapf {
 
-/// A place on a map [m], from the corner of its first cell: x along rows, y along columns.
-struct MapPoint {
-  double x = 0;
-  double y = 0;
-};
-
-/// Where one robot stands and where it is to go.
+/// Where one robot stands on a raster and where it is to go.
 struct RobotPoses {
   MapPoint start;
   MapPoint goal;
+  double radius_m = -1;  ///< at most the planning graph's; negative: the graph's
 };
 
 /// Why a robot cannot be brought onto the planning graph, or off it.
@@ -26,17 +25,35 @@ enum class AttachmentFaultKind {
   kOutsideMap,
   kTooNearObstacle,  ///< a goal, or a start from which no way leads away from the obstacle
   kDiscsOverlap,     ///< two starts, or two goals, are too near to each other
-  kNoVertex,         ///< no vertex that is left within the snap distance by a clear straight leg
+  kNoVertex,         ///< no vertex within the snap distance by a clear straight leg
   kOtherPiece,       ///< start and goal are near vertices of different pieces of the graph only
+  kTaken,            ///< more robots than vertices in their reach
   kCrowd,            ///< legs that no order keeps apart from the other robots
 };
 
-/// One robot at fault. The message says distance and need.
+/// One robot at fault; `other`, the lengths and the bottleneck mean something where the kind needs
+/// them.
 struct AttachmentFault {
   std::uint32_t robot = 0;
   AttachmentFaultKind kind = AttachmentFaultKind::kOutsideMap;
-  std::string message;
+  bool at_goal = false;     ///< it is the goal that is at fault, not the start
+  MapPoint pose;            ///< the one at fault, on the raster
+  std::uint32_t other = 0;  ///< of kDiscsOverlap
+  double distance_m = 0;    ///< that there is; of kNoVertex: the snap distance
+  double needed_m = 0;      ///< that this robot needs instead
+  double ways_need_m = 0;   ///< that edges keep from obstacles, for the largest robot
+  /// Of kNoVertex and kOtherPiece, as findBottlenecks() finds it.
+  std::optional<Bottleneck> bottleneck;
 };
+
+/// Whether the fault proves that this robot cannot reach its goal by any graph: its ground itself
+/// is cut in two.
+bool isCutOff(const AttachmentFault& fault);
+
+/// The fault in one sentence that says distance and need. @param names  of the robots, as the user
+/// knows them: "robot 'r1'". @param frame  in which the user knows places.
+std::string explain(const AttachmentFault& fault, const std::vector<std::string>& names,
+                    const MapFrame& frame);
 
 /// The straight ways between poses and vertices, each robot's in one whole step.
 struct Legs {
@@ -54,14 +71,16 @@ struct Attachment {
 };
 
 /// Gives every robot a vertex to start from and one to end at, by the least sum of squared lengths
-/// of straight legs that keep off obstacles; and puts the legs into waves, so that discs keep twice
-/// the radius plus the clearance apart while others stand at their poses or vertices, or walk in
-/// the same wave. Legs that block each other are banned in turn and robots matched anew. A start
-/// nearer to an obstacle than radius + clearance is left by legs that never come nearer than it is
+/// of straight legs that keep off obstacles; and puts the legs into waves, so that discs keep both
+/// radii plus the clearance apart while others stand at their poses or vertices, or walk in the
+/// same wave. Legs that block each other are banned in turn and robots matched anew. A start nearer
+/// to an obstacle than radius + clearance is left by legs that never come nearer than it is
 /// already.
 /// @param snap_distance_m  greatest length of a leg; 0: one spacing of the lattice.
-/// Deterministic. Cost: about robots^2. Thread-safe.
+/// Deterministic. Cost: about robots^2; where robots are cut off, O(cells) to say where: that part
+/// ends, and says less, when the deadline strikes. Thread-safe.
 Attachment attachRobots(const ObstacleRaster& raster, const Roadmap& roadmap,
-                        const std::vector<RobotPoses>& robots, double snap_distance_m = 0);
+                        const std::vector<RobotPoses>& robots, double snap_distance_m = 0,
+                        const Deadline& deadline = Deadline());
 
 }  // namespace split_mapf

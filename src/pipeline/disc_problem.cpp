@@ -1,0 +1,110 @@
+#include "split_mapf/pipeline/disc_problem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "split_mapf/core/wording.h"
+
+namespace split_mapf {
+namespace {
+
+// A leg is one step: with longer ones the step of all robots would last too long.
+constexpr double kMostSnap = 10;  // spacings
+
+std::string firstOf(const std::vector<std::string>& messages) {
+  if (messages.size() == 1) return messages.front();
+  return messages.front() + " (and " + counted(messages.size() - 1, "more fault") + ")";
+}
+
+/// Gives every robot its own radius, and the graph the largest.
+void settleRadii(DiscTask& task) {
+  double largest = 0;
+  for (std::size_t i = 0; i < task.robots.size(); ++i) {
+    double& radius = task.robots[i].radius_m;
+    if (radius < 0) radius = task.roadmap.robot_radius_m;
+    if (!std::isfinite(radius)) {
+      throw OptionError(task.names[i] + ": its radius is " + numeral(radius) +
+                        ", a finite number of metres is expected");
+    }
+    largest = std::max(largest, radius);
+  }
+  task.roadmap.robot_radius_m = largest;
+}
+
+void requireSnapDistance(double snap_distance_m, const Roadmap& roadmap) {
+  const double spacing = roadmap.spacing_cells * roadmap.resolution_m;
+  if (snap_distance_m >= 0 && snap_distance_m <= kMostSnap * spacing + 1e-9) return;
+  throw OptionError("snap_distance is " + inMetres(snap_distance_m) + ": 0 to " +
+                    inMetres(kMostSnap * spacing) +
+                    " are possible, ten cell sizes, as a leg is walked in one step");
+}
+
+double longestLeg(const Roadmap& roadmap, const std::vector<Vertex>& vertices,
+                  const std::vector<MapPoint>& poses) {
+  double longest = 0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const std::uint32_t cell = roadmap.cells[vertices[i]];
+    const double x = (cell % roadmap.width + 0.5) * roadmap.resolution_m;
+    const double y = (cell / roadmap.width + 0.5) * roadmap.resolution_m;
+    longest = std::max(longest, std::hypot(x - poses[i].x, y - poses[i].y));
+  }
+  return longest;
+}
+
+}  // namespace
+
+bool asksForRoadmap(const RoadmapOptions& options) {
+  return options.robot_radius_m != 0 || options.cell_size_m != 0 || options.clearance_m != 0;
+}
+
+AttachmentError::AttachmentError(std::vector<AttachmentFault> faults,
+                                 std::vector<std::string> messages)
+    : InputError(firstOf(messages)), faults_(std::move(faults)), messages_(std::move(messages)) {}
+
+DiscProblem::DiscProblem(DiscTask task, const Deadline& deadline) : task_(std::move(task)) {
+  if (task_.robots.empty()) throw InputError("there are no robots; at least one is needed");
+  settleRadii(task_);
+  for (const RobotPoses& robot : task_.robots) discs_.radius_m.push_back(robot.radius_m);
+  discs_.clearance_m = task_.roadmap.clearance_m;
+  std::optional<Roadmap> roadmap = buildRoadmap(*task_.raster, task_.roadmap, deadline);
+  if (!roadmap) throw Interrupted();
+  roadmap_ = std::move(*roadmap);
+  requireSnapDistance(task_.snap_distance_m, roadmap_);
+  attachment_ =
+      attachRobots(*task_.raster, roadmap_, task_.robots, task_.snap_distance_m, deadline);
+  if (!attachment_.faults.empty()) {
+    std::vector<std::string> messages;
+    for (const AttachmentFault& fault : attachment_.faults) {
+      messages.push_back(explain(fault, task_.names, task_.frame));
+    }
+    throw AttachmentError(attachment_.faults, std::move(messages));
+  }
+  std::vector<MapPoint> starts;
+  std::vector<MapPoint> goals;
+  for (const RobotPoses& robot : task_.robots) {
+    starts.push_back(robot.start);
+    goals.push_back(robot.goal);
+  }
+  const std::vector<Vertex>& from = attachment_.departure.vertices;
+  const std::vector<Vertex>& to = attachment_.arrival.vertices;
+  longest_step_m_ = std::max({roadmap_.longest_edge_m, longestLeg(roadmap_, from, starts),
+                              longestLeg(roadmap_, to, goals)});
+  instance_ = std::make_shared<const Instance>(Instance::fromVertices(gridOf(roadmap_), from, to));
+}
+
+DiscCourses DiscProblem::coursesOf(const Plan& plan, const Deadline& deadline) const {
+  DiscCourses result;
+  result.courses = split_mapf::coursesOf(roadmap_, task_.robots, attachment_, plan);
+  DiscCheck check = checkDiscs(*task_.raster, discs_, result.courses, 1, deadline);
+  if (!check.violations.empty()) {
+    throw std::logic_error("the plan is not safe: " +
+                           explain(check.violations.front(), task_.names, task_.frame));
+  }
+  result.least_clearance_m = std::move(check.least_clearance_m);
+  return result;
+}
+
+}  // namespace split_mapf
