@@ -12,16 +12,16 @@ add_test(NAME tool
     ${SPLIT_MAPF_PYTHON} -B -m unittest discover -s ${CMAKE_CURRENT_SOURCE_DIR}/test/tool -p *_test.py)
 set_tests_properties(tool PROPERTIES TIMEOUT 600)
 
-# Tests run side by side. These measure time: programs of seconds, and rostests that hold the node to
-# its limits, have the machine to themselves, and of the other rostests, which mostly wait, only one runs beside others that do not. What takes
-# longest begins first.
+# Tests run side by side. These measure time, so they have the machine to themselves: programs of
+# seconds, and rostests that hold the node to its limits. The other rostests mostly wait for states.
+# What takes longest begins first.
 get_property(split_mapf_tests DIRECTORY PROPERTY TESTS)
 foreach(test IN LISTS split_mapf_tests)
   if(test MATCHES "(core|solver|pipeline|ilp|ros)_tests$"
       OR test MATCHES "rostest.*(big_maps|plan_server|strange_goals|termination)")
     set_tests_properties(${test} PROPERTIES RUN_SERIAL ON)
   elseif(test MATCHES "rostest")
-    set_tests_properties(${test} PROPERTIES RESOURCE_LOCK clock COST 100)
+    set_tests_properties(${test} PROPERTIES COST 100)
   elseif(test MATCHES "conformance_tests$")
     set_tests_properties(${test} PROPERTIES COST 200)
   endif()

@@ -32,6 +32,7 @@ World worldOf(const ObstacleRaster& raster) {
 /// In the frame of the raster, turned over: y goes up.
 std::string textOf(const AttachmentFault& fault) {
   std::vector<std::string> names;
+  names.reserve(20);
   for (int i = 0; i < 20; ++i) names.push_back("robot " + std::to_string(i));
   return explain(fault, names, {0, 0, 0, 10});
 }

@@ -24,7 +24,7 @@ Placement::Placement(const Instance& instance, const std::vector<std::uint32_t>&
       weights_(instance.robots(), 1),
       placed_in_(instance.robots(), 0) {
   plan_.paths.resize(instance.robots());
-  if (is_reserved_) {
+  if (reserved != nullptr) {
     for (const Path& path : reserved->paths()) {
       table_.insert(static_cast<std::uint32_t>(weights_.size()), path);
       weights_.push_back(EvictionQuery::kFixed);
