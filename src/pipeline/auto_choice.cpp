@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "pipeline/solver_choice.h"
-#include "split_mapf/split/split_spec.h"
 
 namespace split_mapf {
 namespace {
@@ -30,11 +29,6 @@ constexpr double kUnnoticedSec = 0.02;
 // Plans that are expected to cost so little more than the best are as good: `conflict_optimizer`
 // and `prioritized` place robots by the same code, and mostly in the same way.
 constexpr double kAsGood = 1.005;
-// Of each further processor a split uses so much.
-constexpr double kParallelShare = 0.8;
-// What takes less is not worth a split, whatever the model says of it.
-constexpr double kLeastToSplitSec = 0.05;
-
 // A race in turns: whoever has taken so many times what is expected has run into a jam that the
 // model does not see, and it may take hundreds of times that. In expansions none on our maps takes
 // more than about 5 times that but one (ost003d, 1000 robots, scenario 5: 10 times), and none more
@@ -52,14 +46,10 @@ std::string inSeconds(double seconds) {
   return text;
 }
 
-double wallSeconds(const MethodEstimate& method, const SolverTraits& traits,
-                   std::uint32_t threads) {
-  const auto pieces = std::max<std::size_t>(1, parseSplitSpec(method.split).time_ratios.size());
-  // Whatever the number of threads is, as the choice of a solver, and so the plan, must not depend
-  // on it.
-  if (pieces == 1) return method.seconds / traits.two_thread_gain;
-  const auto workers = static_cast<double>(std::min<std::size_t>(pieces, threads));
-  return method.seconds / (1 + kParallelShare * (workers - 1));
+/// On two threads, whatever their number is, as the choice of a solver, and so the plan, must not
+/// depend on it.
+double wallSeconds(const MethodEstimate& method, const SolverTraits& traits) {
+  return method.seconds / traits.two_thread_gain;
 }
 
 /// `seconds` are those of the wall.
@@ -76,7 +66,7 @@ std::uint64_t turnOf(const Candidate& choice, const InstanceFeatures& features) 
 
 double secondsOf(const std::string& solver, const std::vector<Candidate>& methods) {
   for (const Candidate& method : methods) {
-    if (method.solver == solver && method.split == "none") return method.seconds;
+    if (method.solver == solver) return method.seconds;
   }
   return 0;
 }
@@ -96,11 +86,9 @@ std::vector<Candidate> candidates(const AutoQuestion& question, const CostModel&
         question.solver == "auto"
             ? question.solvers.count(method.solver) > 0 && plansFor(traits, question.objective)
             : question.solver == method.solver;
-    const bool worth_it = method.split == "none" || method.seconds >= kLeastToSplitSec;
-    const bool split_fits = question.split == "auto" ? worth_it : method.split == "none";
-    if (!solver_fits || !split_fits) continue;
+    if (!solver_fits) continue;
     const double processor_sec = method.seconds;
-    method.seconds = wallSeconds(method, traits, question.threads);
+    method.seconds = wallSeconds(method, traits);
     result.push_back({std::move(method), processor_sec, traits.loose_plans});
   }
   return result;
@@ -108,8 +96,7 @@ std::vector<Candidate> candidates(const AutoQuestion& question, const CostModel&
 
 /// Whether the pieces of a split do better with loose plans was not measured.
 bool startsLoose(const AutoQuestion& question) {
-  const bool whole = question.split == "auto" || question.split == "none";
-  return question.refines && whole && question.objective == Objective::kSumOfCosts &&
+  return question.refines && !question.splits && question.objective == Objective::kSumOfCosts &&
          question.features.head_on >= kHeadOn;
 }
 
@@ -127,8 +114,7 @@ void sortBestFirst(std::vector<Candidate>& methods, bool loose) {
   }
   const double good = kAsGood * (1 + least) - 1;
   const auto rank = [=](const Candidate& method) {
-    const bool wanted = loose && method.loose && method.split == "none" &&
-                        method.seconds <= soon_sec + kUnnoticedSec;
+    const bool wanted = loose && method.loose && method.seconds <= soon_sec + kUnnoticedSec;
     const bool soon = method.seconds <= soon_sec;
     return std::make_tuple(!wanted, !soon, soon ? std::max(good, method.excess) : method.seconds);
   };
@@ -142,7 +128,7 @@ AutoChoice chooseMethod(const AutoQuestion& question, const CostModel& model) {
   std::vector<Candidate> methods = candidates(question, model);
   if (methods.empty()) {
     return {question.solver == "auto" ? question.solvers.begin()->first : question.solver,
-            question.split == "auto" ? "none" : question.split, "nothing is known of it", 0, 0};
+            "nothing is known of it", 0, 0};
   }
   const bool loose = startsLoose(question);
   const double least = std::min_element(methods.begin(), methods.end(), costsLess)->excess;
@@ -155,12 +141,10 @@ AutoChoice chooseMethod(const AutoQuestion& question, const CostModel& model) {
   sortBestFirst(methods, loose);
   const Candidate& first = methods.front();
   const bool is_last = first.solver == last_resort;
-  AutoChoice choice{first.solver, question.split == "auto" ? first.split : question.split,
-                    inSeconds(first.seconds) + " expected", is_last ? 0 : last_resort_sec,
-                    is_last ? 0 : turnOf(first, question.features)};
+  AutoChoice choice{first.solver, inSeconds(first.seconds) + " expected",
+                    is_last ? 0 : last_resort_sec, is_last ? 0 : turnOf(first, question.features)};
   if (methods.size() > 1) {
     choice.reason += ", " + inSeconds(methods[1].seconds) + " by " + methods[1].solver;
-    if (methods[1].split != "none") choice.reason += " in " + methods[1].split;
   }
   return choice;
 }

@@ -10,21 +10,20 @@
 
 namespace split_mapf {
 
-/// What `auto` leaves open, and on what.
+/// What `auto` leaves open, and on what. The split is none of it: as long as no split is known to
+/// pay, split `auto` means none.
 struct AutoQuestion {
   InstanceFeatures features;
   Objective objective = Objective::kMakespan;
-  std::uint32_t threads = 1;
   std::string solver;    ///< "auto", or the solver that was asked for
   SolverTable solvers;   ///< that there are
-  std::string split;     ///< "auto", or the split that was asked for
+  bool splits = false;   ///< whether pieces are solved, not the whole
   bool refines = false;  ///< whether the first plan is only where refinement begins
 };
 
 /// What `auto` stands for on this instance.
 struct AutoChoice {
   std::string solver;
-  std::string split;
   std::string reason;          ///< half a sentence for people
   double last_resort_sec = 0;  ///< expected of lastResort(); 0 where it is chosen, or not known
   /// Expansions after which it is the others' turn, many times what is expected: the choice was

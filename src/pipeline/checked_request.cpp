@@ -16,7 +16,7 @@ SplitSpec checkSplit(const PlanRequest& request,
   SplitSpec split = parseSplitSpec(request.split);
   if (!options.empty() && split.kind != SplitSpec::Kind::kSplit) {
     throw OptionError("split options need a split, but split " + quote(request.split) +
-                      (split.kind == SplitSpec::Kind::kAuto ? " may make none" : " makes none"));
+                      " makes none");
   }
   if (split.space) return split;
   for (const SplitOptionInfo& option : splitOptions()) {

@@ -43,7 +43,6 @@ CostModel::CostModel(const std::string& yaml) {
     for (const YAML::Node& node : YAML::Load(yaml)["methods"]) {
       Method method;
       method.solver = node["solver"].as<std::string>();
-      method.split = node["split"].as<std::string>();
       method.objective = parseObjective(node["objective"].as<std::string>());
       method.log_seconds = weightsOf(node, "log_seconds");
       method.log_excess = weightsOf(node, "log_excess");
@@ -66,8 +65,8 @@ std::vector<MethodEstimate> CostModel::estimate(const InstanceFeatures& features
   std::vector<MethodEstimate> estimates;
   for (const Method& method : methods_) {
     if (method.objective != objective) continue;
-    estimates.push_back({method.solver, method.split, predict(method.log_seconds, terms),
-                         predict(method.log_excess, terms)});
+    estimates.push_back(
+        {method.solver, predict(method.log_seconds, terms), predict(method.log_excess, terms)});
   }
   return estimates;
 }

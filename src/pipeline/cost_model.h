@@ -11,7 +11,6 @@ namespace split_mapf {
 /// What a method is expected to cost on an instance.
 struct MethodEstimate {
   std::string solver;
-  std::string split;   ///< a specification
   double seconds = 0;  ///< of one processor, to the first plan
   double excess = 0;   ///< cost over its lower bound, less 1
 };
@@ -31,7 +30,6 @@ class CostModel {
  private:
   struct Method {
     std::string solver;
-    std::string split;
     Objective objective = Objective::kMakespan;
     std::vector<double> log_seconds;
     std::vector<double> log_excess;

@@ -208,17 +208,18 @@ void PlanRun::setLowerBounds() {
   log_.setLowerBound(report_.proved_lower_bound);
 }
 
-bool PlanRun::mustChoose() const {
-  return request_.solver == "auto" || request_.split.kind == SplitSpec::Kind::kAuto;
+bool PlanRun::splits() const {
+  return request_.split.space || request_.split.time_ratios.size() > 1;
 }
+
+bool PlanRun::mustChoose() const { return request_.solver == "auto"; }
 
 void PlanRun::choose() {
   if (!mustChoose()) return;
   log_.enterStage("choose");
-  if (request_.solver == "auto" && !last_resort_.empty() && stepTablesAreTooLarge()) {
+  if (!last_resort_.empty() && stepTablesAreTooLarge()) {
     request_.solver = last_resort_;
     request_.solver_options.values = solvers_.info(last_resort_).lean_values;
-    if (request_.split.kind == SplitSpec::Kind::kAuto) request_.split = SplitSpec{};
     choice_ =
         " (chosen: a table of steps would take " + std::to_string(stepTableMebibytes()) + " MiB)";
     return;
@@ -228,18 +229,14 @@ void PlanRun::choose() {
   AutoQuestion question;
   question.features = *features_;
   question.objective = report_.objective;
-  question.threads = report_.threads;
   question.solver = request_.solver;
   question.solvers = traits_;
-  question.split = report_.split;
+  question.splits = splits();
   question.refines = request_.asked.refine_sec > 0;
   const AutoChoice choice = chooseMethod(question, CostModel::shipped());
-  if (request_.solver == "auto") {
-    request_.solver = choice.solver;
-    request_.solver_options.expansion_limit = choice.turn;
-    keepTimeForLastResort(choice.last_resort_sec);
-  }
-  if (request_.split.kind == SplitSpec::Kind::kAuto) request_.split = parseSplitSpec(choice.split);
+  request_.solver = choice.solver;
+  request_.solver_options.expansion_limit = choice.turn;
+  keepTimeForLastResort(choice.last_resort_sec);
   choice_ = " (chosen: " + choice.reason + ")";
 }
 
@@ -326,8 +323,7 @@ std::unique_ptr<Splitter> PlanRun::makeSplitter() {
 }
 
 std::optional<RepairLoop::Outcome> PlanRun::solvePieces(Splitter& splitter) {
-  const bool cuts = request_.split.space || request_.split.time_ratios.size() > 1;
-  if (cuts) log_.enterStage("split");
+  if (splits()) log_.enterStage("split");
   if (!splitter.split(deadline_)) return std::nullopt;
   log_.enterStage("solve");
   RepairLoop::Options options;

@@ -35,9 +35,11 @@ class PlanRun {
   bool reportUnsolvable();
   /// @pre no robot is cut off.
   void setLowerBounds();
-  /// Whether `auto` is asked for.
+  /// Whether there are pieces. Split `auto` makes none.
+  bool splits() const;
+  /// Whether solver `auto` is asked for.
   bool mustChoose() const;
-  /// Puts a solver and a split where `auto` was asked for. @pre no robot is cut off.
+  /// Puts a solver where `auto` was asked for. @pre no robot is cut off.
   void choose();
   /// Of the split that the request asks for by now.
   std::unique_ptr<Splitter> makeSplitter();

@@ -125,7 +125,7 @@ bool PlanServices::listSolvers(ListSolvers::Request& /*request*/,
                                ListSolvers::Response& response) const {
   response.names.emplace_back("auto");
   response.descriptions.emplace_back(
-      "chooses a solver, and with split auto a split, by what the instance is like");
+      "chooses a solver by what the instance is like; split auto makes no split");
   for (const std::string& name : solvers_.names()) {
     const SolverInfo& info = solvers_.info(name);
     std::string description = info.description;

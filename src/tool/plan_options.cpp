@@ -37,7 +37,8 @@ void declarePlanOptions(CommandLine& line) {
   line.offer("objective", "NAME",
              "makespan or sum_of_costs (" + toString(defaults.objective) + ")");
   line.offer("split", "SPEC",
-             "none, auto, or [space][time] with space Ns or RxCs and time Kt or t(r1,...,rK) (" +
+             "none, auto (which makes none), or [space][time] with space Ns or RxCs and time Kt or "
+             "t(r1,...,rK) (" +
                  defaults.split + ")");
   line.offerRepeatable("split-option", "NAME=VALUE", "an option of the split; repeatable");
   line.offer("time-limit", "SECONDS",

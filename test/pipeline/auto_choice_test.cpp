@@ -10,59 +10,45 @@ namespace {
 // Times grow with the number of robots, but for `sturdy`; `rough` is a little sooner than that, but
 // makes worse plans; `hopeless` is sooner than all and its plans cost twice the bound.
 constexpr const char* kModel = R"(methods:
-  - {solver: quick, split: none, objective: makespan, log_seconds: [-9, 2, 0, 0, 0, 0, 0],
+  - {solver: quick, objective: makespan, log_seconds: [-9, 2, 0, 0, 0, 0, 0],
      log_excess: [-9, 0, 0, 0, 0, 0, 0]}
-  - {solver: quick, split: 4t, objective: makespan, log_seconds: [-8, 1.8, 0, 0, 0, 0, 0],
+  - {solver: sturdy, objective: makespan, log_seconds: [0, 0, 0, 0, 0, 0, 0],
      log_excess: [-9, 0, 0, 0, 0, 0, 0]}
-  - {solver: sturdy, split: none, objective: makespan, log_seconds: [0, 0, 0, 0, 0, 0, 0],
-     log_excess: [-9, 0, 0, 0, 0, 0, 0]}
-  - {solver: rough, split: none, objective: makespan, log_seconds: [-0.1, 0, 0, 0, 0, 0, 0],
+  - {solver: rough, objective: makespan, log_seconds: [-0.1, 0, 0, 0, 0, 0, 0],
      log_excess: [-2, 0, 0, 0, 0, 0, 0]}
-  - {solver: hopeless, split: none, objective: makespan, log_seconds: [-20, 0, 0, 0, 0, 0, 0],
+  - {solver: hopeless, objective: makespan, log_seconds: [-20, 0, 0, 0, 0, 0, 0],
      log_excess: [0, 0, 0, 0, 0, 0, 0]}
 )";
 
-AutoQuestion question(std::uint32_t robots, std::uint32_t threads) {
+AutoQuestion question(std::uint32_t robots) {
   AutoQuestion question;
   question.features.robots = robots;
   question.features.cells = 1000;
   question.features.largest_group = 1;
-  question.threads = threads;
   question.solver = "auto";
   question.solvers = {{"quick", {}}, {"rough", {}}, {"sturdy", {}}, {"hopeless", {}}};
-  question.split = "auto";
   return question;
 }
 
 TEST(AutoChoice, TheSoonestAndOfThoseAboutAsSoonTheBest) {
   const CostModel model(kModel);
-  EXPECT_EQ(chooseMethod(question(10, 1), model).solver, "quick");
-  EXPECT_EQ(chooseMethod(question(10, 1), model).split, "none");
-  EXPECT_EQ(chooseMethod(question(1000, 1), model).solver, "sturdy");
-  AutoQuestion without = question(1000, 1);
+  EXPECT_EQ(chooseMethod(question(10), model).solver, "quick");
+  EXPECT_EQ(chooseMethod(question(1000), model).solver, "sturdy");
+  AutoQuestion without = question(1000);
   without.solvers = {{"quick", {}}, {"rough", {}}, {"hopeless", {}}};
   EXPECT_EQ(chooseMethod(without, model).solver, "rough");
   without.solvers = {{"hopeless", {}}};
   EXPECT_EQ(chooseMethod(without, model).solver, "hopeless");
 }
 
-TEST(AutoChoice, MoreProcessorsMakeASplitPay) {
-  const CostModel model(kModel);
-  AutoQuestion asked = question(50, 1);
-  asked.solver = "quick";
-  EXPECT_EQ(chooseMethod(asked, model).split, "none");
-  asked.threads = 4;
-  EXPECT_EQ(chooseMethod(asked, model).split, "4t");
-}
-
 TEST(AutoChoice, ALoosePlanBeforeRefinementWhereRobotsMeetHeadOn) {
   const CostModel model(R"(methods:
-  - {solver: tight, split: none, objective: sum_of_costs, log_seconds: [-0.4, 0, 0, 0, 0, 0, 1],
+  - {solver: tight, objective: sum_of_costs, log_seconds: [-0.4, 0, 0, 0, 0, 0, 1],
      log_excess: [-1, 0, 0, 0, 0, 0, 0]}
-  - {solver: lacam, split: none, objective: sum_of_costs, log_seconds: [0.5, 0, 0, 0, 0, 0, 0],
+  - {solver: lacam, objective: sum_of_costs, log_seconds: [0.5, 0, 0, 0, 0, 0, 0],
      log_excess: [-0.3, 0, 0, 0, 0, 0, 0]}
 )");
-  AutoQuestion asked = question(100, 1);
+  AutoQuestion asked = question(100);
   asked.objective = Objective::kSumOfCosts;
   asked.solvers = {{"tight", {}}, {"lacam", builtinSolvers().info("lacam").traits}};
   asked.refines = true;
@@ -72,9 +58,9 @@ TEST(AutoChoice, ALoosePlanBeforeRefinementWhereRobotsMeetHeadOn) {
   EXPECT_EQ(chooseMethod(asked, model).solver, "tight") << "as soon, and robots can pass";
   asked.features.head_on = 1.0;
   EXPECT_EQ(chooseMethod(asked, model).solver, "lacam");
-  asked.split = "8t";
+  asked.splits = true;
   EXPECT_EQ(chooseMethod(asked, model).solver, "tight") << "its pieces are packed as ever";
-  asked.split = "none";
+  asked.splits = false;
   EXPECT_EQ(chooseMethod(asked, model).solver, "lacam");
   asked.refines = false;
   EXPECT_EQ(chooseMethod(asked, model).solver, "tight") << "as the first plan is the last";
@@ -83,30 +69,27 @@ TEST(AutoChoice, ALoosePlanBeforeRefinementWhereRobotsMeetHeadOn) {
 TEST(AutoChoice, TheSolverDoesNotDependOnTheThreads) {
   // Whoever took credit for 4 processors would place robots here.
   const CostModel model(R"(methods:
-  - {solver: conflict_optimizer, split: none, objective: makespan,
+  - {solver: conflict_optimizer, objective: makespan,
      log_seconds: [0.7, 0, 0, 0, 0, 0, 0], log_excess: [-1, 0, 0, 0, 0, 0, 0]}
-  - {solver: lacam, split: none, objective: makespan, log_seconds: [0, 0, 0, 0, 0, 0, 0],
+  - {solver: lacam, objective: makespan, log_seconds: [0, 0, 0, 0, 0, 0, 0],
      log_excess: [-1, 0, 0, 0, 0, 0, 0]}
 )");
-  for (const std::uint32_t threads : {1U, 2U, 4U, 32U}) {
-    AutoQuestion asked = question(100, threads);
-    asked.solvers = builtinSolvers().traits();
-    EXPECT_EQ(chooseMethod(asked, model).solver, "lacam") << threads;
-  }
+  AutoQuestion asked = question(100);
+  asked.solvers = builtinSolvers().traits();
+  EXPECT_EQ(chooseMethod(asked, model).solver, "lacam");
 }
 
 TEST(AutoChoice, ATurnIsManyTimesWhatIsExpectedAndShorterInJams) {
   const CostModel model(kModel);
-  const AutoQuestion asked = question(1000, 1);
+  const AutoQuestion asked = question(1000);
   ASSERT_EQ(chooseMethod(asked, model).solver, "sturdy") << "a second is expected";
   const std::uint64_t turn = chooseMethod(asked, model).turn;
   EXPECT_GT(turn, 10'000'000U) << "expansions that take 5 s at least";
-  EXPECT_EQ(chooseMethod(question(1000, 4), model).turn, turn) << "whatever the threads";
   AutoQuestion jammed = asked;
   jammed.features.head_on = 1;
   EXPECT_LT(chooseMethod(jammed, model).turn, turn / 2);
   EXPECT_GT(chooseMethod(jammed, model).turn, 0U);
-  EXPECT_GT(chooseMethod(question(1, 1), model).turn, 100'000U) << "hardly any time is expected";
+  EXPECT_GT(chooseMethod(question(1), model).turn, 100'000U) << "hardly any time is expected";
   AutoQuestion unknown = asked;
   unknown.solver = "unheard_of";
   EXPECT_EQ(chooseMethod(unknown, model).turn, 0U);
@@ -114,31 +97,26 @@ TEST(AutoChoice, ATurnIsManyTimesWhatIsExpectedAndShorterInJams) {
 
 TEST(AutoChoice, TheLastResortHasNobodyToYieldTo) {
   const CostModel model(R"(methods:
-  - {solver: lacam, split: none, objective: makespan, log_seconds: [0, 0, 0, 0, 0, 0, 0],
+  - {solver: lacam, objective: makespan, log_seconds: [0, 0, 0, 0, 0, 0, 0],
      log_excess: [-1, 0, 0, 0, 0, 0, 0]}
 )");
-  AutoQuestion asked = question(100, 1);
+  AutoQuestion asked = question(100);
   asked.solvers = {{"lacam", builtinSolvers().info("lacam").traits}};
   EXPECT_EQ(chooseMethod(asked, model).turn, 0U);
 }
 
 TEST(AutoChoice, KeepsWhatWasAskedFor) {
   const CostModel model(kModel);
-  AutoQuestion asked = question(1000, 2);
+  AutoQuestion asked = question(1000);
   asked.solver = "quick";
-  asked.split = "7t";
-  const AutoChoice choice = chooseMethod(asked, model);
-  EXPECT_EQ(choice.solver, "quick");
-  EXPECT_EQ(choice.split, "7t");
+  EXPECT_EQ(chooseMethod(asked, model).solver, "quick");
   asked.solver = "unheard_of";
-  asked.split = "auto";
   EXPECT_EQ(chooseMethod(asked, model).solver, "unheard_of");
-  EXPECT_EQ(chooseMethod(asked, model).split, "none");
 }
 
 TEST(AutoChoice, NeverASolverThatIsNotThere) {
   const CostModel model(kModel);
-  AutoQuestion asked = question(10, 1);
+  AutoQuestion asked = question(10);
   asked.solvers = {{"sturdy", {}}};
   EXPECT_EQ(chooseMethod(asked, model).solver, "sturdy");
 }
@@ -164,7 +142,7 @@ TEST(CostModel, TheShippedOneKnowsTheSolversAndBothObjectives) {
 TEST(CostModel, SaysWhatIsWrongWithItsData) {
   EXPECT_THROW(CostModel("methods: []"), InputError);
   EXPECT_THROW(CostModel("{"), InputError);
-  EXPECT_THROW(CostModel("methods: [{solver: a, split: none, objective: makespan,"
+  EXPECT_THROW(CostModel("methods: [{solver: a, objective: makespan,"
                          " log_seconds: [1], log_excess: [1]}]"),
                InputError);
 }
