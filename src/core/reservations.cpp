@@ -88,7 +88,7 @@ std::string findViolation(const Instance& instance, const Plan& plan,
   const std::vector<Violation> alone = validate(instance, plan);
   if (!alone.empty()) return alone.front().message;
   if (reserved.empty()) return "";
-  const std::string blocked = reserved.findBlocked(instance);
+  std::string blocked = reserved.findBlocked(instance);
   if (!blocked.empty()) return blocked;
   Plan all = plan;
   all.paths.insert(all.paths.end(), reserved.paths().begin(), reserved.paths().end());

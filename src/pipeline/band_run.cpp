@@ -54,8 +54,8 @@ BandRun::BandRun(const Instance& instance, CheckedRequest request, const SolverR
 
 bool BandRun::isFor(const Instance& instance, const CheckedRequest& request,
                     const SolverRegistry& solvers) {
-  return instance.grid().isHuge() && !request.split.space &&
-         !promisesBound(solvers.traits(), request.solver);
+  const bool cuts_map = request.splitter != nullptr && request.splitter->cuts_map;
+  return instance.grid().isHuge() && !cuts_map && !promisesBound(solvers.traits(), request.solver);
 }
 
 PlanReport BandRun::run() {

@@ -1,42 +1,13 @@
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "pipeline/checked_request.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/named_values.h"
 #include "split_mapf/core/wording.h"
-#include "split_mapf/split/split_options.h"
 
 namespace split_mapf {
 namespace {
-
-SplitSpec checkSplit(const PlanRequest& request,
-                     const std::map<std::string, std::string>& options) {
-  SplitSpec split = parseSplitSpec(request.split);
-  if (!options.empty() && split.kind != SplitSpec::Kind::kSplit) {
-    throw OptionError("split options need a split, but split " + quote(request.split) +
-                      " makes none");
-  }
-  if (split.space) return split;
-  for (const SplitOptionInfo& option : splitOptions()) {
-    if (!option.space_only || options.count(option.name) == 0) continue;
-    throw OptionError("split option '" + option.name + "' is for space splits, but split " +
-                      quote(request.split) + " has no space part");
-  }
-  return split;
-}
-
-void checkBisection(const CheckedRequest& request) {
-  if (request.split_options.variant != TimeSplitVariant::kBisection) return;
-  const std::vector<double>& ratios = request.split.time_ratios;
-  const bool power = (ratios.size() & (ratios.size() - 1)) == 0;
-  const bool equal =
-      std::adjacent_find(ratios.begin(), ratios.end(), std::not_equal_to<>()) == ratios.end();
-  if (power && equal) return;
-  throw OptionError("variant=bisection halves again and again: split " +
-                    quote(request.asked.split) + " should be Kt with K a power of two");
-}
 
 std::string sizeFault(const std::string& text, std::size_t most) {
   return quote(text) + " has " + counted(text.size(), "byte") + "; at most " +
@@ -89,7 +60,8 @@ void checkNumbers(const PlanRequest& request) {
 
 }  // namespace
 
-CheckedRequest check(const PlanRequest& request, const SolverRegistry& solvers) {
+CheckedRequest check(const PlanRequest& request, const SolverRegistry& solvers,
+                     const SplitterRegistry& splitters) {
   CheckedRequest checked;
   checked.asked = request;
   checkTexts(request);
@@ -105,9 +77,8 @@ CheckedRequest check(const PlanRequest& request, const SolverRegistry& solvers) 
     throw OptionError("solver options belong to a solver, but solver 'auto' chooses one");
   }
   const auto values = parseNamedValues(request.split_options, "split option");
-  checked.split_options = readSplitOptions(values, request.objective);
-  checked.split = checkSplit(request, values);
-  checkBisection(checked);
+  checked.split = splitters.read(request.split, values, request.objective);
+  checked.splitter = splitters.find(checked.split);
   return checked;
 }
 

@@ -3,8 +3,7 @@
 #include <string>
 
 #include "split_mapf/pipeline/planner.h"
-#include "split_mapf/split/split_options.h"
-#include "split_mapf/split/split_spec.h"
+#include "split_mapf/split/splitter_registry.h"
 
 namespace split_mapf {
 
@@ -13,11 +12,12 @@ struct CheckedRequest {
   PlanRequest asked;
   std::string solver;  ///< as asked; what `auto` stands for depends on the instance
   SolverOptions solver_options;
-  SplitSpec split;  ///< likewise
-  SplitOptions split_options;
+  SplitRequest split;
+  const SplitterInfo* splitter = nullptr;  ///< of the split; null: it makes none
 };
 
 /// Reads a request. @throws UnknownSolverError, SplitSpecError, OptionError.
-CheckedRequest check(const PlanRequest& request, const SolverRegistry& solvers);
+CheckedRequest check(const PlanRequest& request, const SolverRegistry& solvers,
+                     const SplitterRegistry& splitters);
 
 }  // namespace split_mapf

@@ -164,10 +164,10 @@ bool PlanRun::computeDistances() {
 }
 
 std::optional<std::uint64_t> PlanRun::seedOfWays() const {
-  if (request_.split.space || request_.split.time_ratios.size() < 2) return std::nullopt;
-  const TimeSplitOptions options = timeSplitOptions();
-  if (!followsShortestWays(instance_, options)) return std::nullopt;
-  return options.seed;
+  const SplitterInfo* const splitter = request_.splitter;
+  if (splitter == nullptr || !splitter->uses_ways) return std::nullopt;
+  if (!splitter->uses_ways(request_.split, instance_)) return std::nullopt;
+  return report_.seed;
 }
 
 bool PlanRun::reportUnsolvable() {
@@ -208,9 +208,7 @@ void PlanRun::setLowerBounds() {
   log_.setLowerBound(report_.proved_lower_bound);
 }
 
-bool PlanRun::splits() const {
-  return request_.split.space || request_.split.time_ratios.size() > 1;
-}
+bool PlanRun::splits() const { return request_.splitter != nullptr; }
 
 bool PlanRun::mustChoose() const { return request_.solver == "auto"; }
 
@@ -287,37 +285,10 @@ void PlanRun::raiseBound(std::uint64_t bound, const std::string& by) {
       {log_.elapsedSec(), report_.makespan, report_.sum_of_costs, report_.proved_lower_bound});
 }
 
-TimeSplitOptions PlanRun::timeSplitOptions() const {
-  TimeSplitOptions options;
-  options.ratios = request_.split.time_ratios;
-  options.variant = request_.split_options.variant;
-  options.assignment = request_.split_options.assignment.value_or(StateAssignment::kGreedy);
-  options.seed = report_.seed;
-  using Check = SplitOptions::Check;
-  const Check check = request_.split_options.check;
-  const bool crowded = instance_.robots() > instance_.graph().size() / 4;
-  if (check == Check::kAlways || (check == Check::kAuto && crowded)) options.checker = &*checker_;
-  return options;
-}
-
-SpaceSplitOptions PlanRun::spaceSplitOptions() const {
-  SpaceSplitOptions options = request_.split_options.space;
-  options.rows = request_.split.space->rows;
-  options.columns = request_.split.space->columns;
-  options.assignment = request_.split_options.assignment.value_or(StateAssignment::kMatching);
-  options.check = request_.split_options.check != SplitOptions::Check::kNever;
-  options.seed = report_.seed;
-  return options;
-}
-
 std::unique_ptr<Splitter> PlanRun::makeSplitter() {
-  if (request_.split.space) {
-    const bool check = request_.split_options.check != SplitOptions::Check::kNever;
-    return std::make_unique<SpaceSplitter>(
-        instance_, SpaceSplitter::Options{spaceSplitOptions(), timeSplitOptions(), check});
-  }
-  if (request_.split.time_ratios.size() > 1) {
-    return std::make_unique<TimeSplitter>(instance_, timeSplitOptions(), std::move(ways_));
+  if (splits()) {
+    return request_.splitter->make(request_.split,
+                                   {instance_, *checker_, report_.seed, std::move(ways_)});
   }
   return std::make_unique<WholeWhereItFails>(instance_);
 }
@@ -327,7 +298,7 @@ std::optional<RepairLoop::Outcome> PlanRun::solvePieces(Splitter& splitter) {
   if (!splitter.split(deadline_)) return std::nullopt;
   log_.enterStage("solve");
   RepairLoop::Options options;
-  if (request_.split.space && request_.split_options.rescue) {
+  if (splits() && request_.splitter->rescues && request_.split.options.rescue) {
     options.others = piece_solver_.otherSolvers();
     if (!options.others.empty()) options.least_budget = kBudgetWithOthers;
   }
@@ -380,7 +351,7 @@ bool PlanRun::callAnother(const RepairLoop::Outcome& outcome) {
   choice_.insert(choice_.size() - 1, "; " + request_.solver + how);
   request_.solver = others_->back();
   others_->pop_back();
-  request_.split = SplitSpec{};
+  request_.splitter = nullptr;
   request_.solver_options.values.clear();
   request_.solver_options.expansion_limit = 0;
   report_.subproblems.clear();  // they tell of the plan, and this one came to nothing
@@ -399,13 +370,13 @@ Plan PlanRun::join(const Splitter& splitter, RepairLoop::Outcome& outcome) {
     solver_said_ = outcome.last.message;
     return plan;
   }
-  if (request_.split_options.compaction) {
+  if (request_.split.options.compaction) {
     log_.enterStage("compact");
     plan = compact(plan, instance_.graph().size());
   }
   const bool least = costOf(plan, report_.objective) <= report_.proved_lower_bound;
   const std::uint32_t passes =
-      request_.split_options.replan_passes.value_or(least ? 0 : kReplanPasses);
+      request_.split.options.replan_passes.value_or(least ? 0 : kReplanPasses);
   if (passes == 0) return plan;
   log_.enterStage("replan");
   return replanSingly(instance_, std::move(plan), {passes, report_.threads, nullptr}, deadline_);

@@ -9,9 +9,8 @@
 #include "pipeline/run_log.h"
 #include "split_mapf/core/solvability.h"
 #include "split_mapf/pipeline/instance_features.h"
-#include "split_mapf/split/space_splitter.h"
 #include "split_mapf/split/splitter.h"
-#include "split_mapf/split/time_splitter.h"
+#include "split_mapf/split/time_split.h"
 
 namespace split_mapf {
 
@@ -67,8 +66,6 @@ class PlanRun {
   /// Takes note of what somebody has proved for the objective [steps]. @pre there is a plan.
   void raiseBound(std::uint64_t bound, const std::string& by);
   void interrupt();
-  TimeSplitOptions timeSplitOptions() const;
-  SpaceSplitOptions spaceSplitOptions() const;
   /// What `auto` chose gets all the time but what the last resort is likely to need.
   void keepTimeForLastResort(double expected_sec);
 

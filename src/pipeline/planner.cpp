@@ -8,11 +8,13 @@
 
 namespace split_mapf {
 
-void Planner::requireValid(const PlanRequest& request) const { check(request, solvers_); }
+void Planner::requireValid(const PlanRequest& request) const {
+  check(request, solvers_, splitters_);
+}
 
 PlanReport Planner::plan(const Instance& instance, const PlanRequest& request,
                          const Deadline& deadline, const PlanListener& listener) const {
-  CheckedRequest checked = check(request, solvers_);
+  CheckedRequest checked = check(request, solvers_, splitters_);
   if (BandRun::isFor(instance, checked, solvers_)) {
     return BandRun(instance, std::move(checked), solvers_, executor_, deadline, listener).run();
   }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "split/piece_sequence.h"
+#include "split_mapf/split/time_splitter.h"
 
 namespace split_mapf {
 namespace {
@@ -38,6 +39,41 @@ struct SpaceSplitter::Region {
   std::uint32_t shares;     // of the usual budget, for the piece as one
   bool drawn_anew = false;  // its states were drawn a second time
 };
+
+namespace {
+
+SpaceSplitOptions spaceOptionsOf(const SplitRequest& request, std::uint64_t seed) {
+  SpaceSplitOptions options = request.options.space;
+  options.rows = request.spec.space->rows;
+  options.columns = request.spec.space->columns;
+  options.assignment = request.options.assignment.value_or(StateAssignment::kMatching);
+  options.check = request.options.check != SplitOptions::Check::kNever;
+  options.seed = seed;
+  return options;
+}
+
+}  // namespace
+
+SplitterInfo SpaceSplitter::info() {
+  SplitterInfo info;
+  info.name = "space";
+  info.description = "Ns, RxCs, also with Kt behind: regions of the map, each cut in time";
+  info.options = spaceSplitOptions();
+  info.makes = [](const SplitSpec& spec) { return spec.space.has_value(); };
+  // Bisection is a way to cut in time.
+  info.check = TimeSplitter::info().check;
+  info.make = [](const SplitRequest& request, SplitQuestion question) {
+    const bool check = request.options.check != SplitOptions::Check::kNever;
+    return std::make_unique<SpaceSplitter>(
+        question.instance,
+        Options{spaceOptionsOf(request, question.seed),
+                timeOptionsOf(request, question.instance, question.seed, &question.checker),
+                check});
+  };
+  info.rescues = true;
+  info.cuts_map = true;
+  return info;
+}
 
 SpaceSplitter::SpaceSplitter(const Instance& instance, Options options)
     : split_(instance, options.space),

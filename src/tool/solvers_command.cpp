@@ -2,15 +2,14 @@
 #include <iostream>
 
 #include "solver/available/available_solvers.h"
-#include "split_mapf/split/split_options.h"
+#include "split_mapf/split/splitter_registry.h"
 #include "tool/command_line.h"
 #include "tool/commands.h"
 
 namespace split_mapf::tool {
 namespace {
 
-template <typename Option>
-void printOption(const Option& option) {
+void printOption(const OptionInfo& option) {
   std::cout << "  " << option.name << "=" << option.default_value << "\n      "
             << option.description << "\n";
 }
@@ -25,8 +24,14 @@ ExitCode runSolvers(const Call& call) {
     std::cout << name << "\n    " << solver.description << "\n";
     for (const OptionInfo& option : solver.options) printOption(option);
   }
-  std::cout << "\nsplit options\n";
-  for (const auto& option : splitOptions()) printOption(option);
+  for (const std::string& name : builtinSplitters().names()) {
+    const SplitterInfo& splitter = builtinSplitters().info(name);
+    std::cout << "\nsplit options of splits made by " << name << "\n    " << splitter.description
+              << "\n";
+    for (const OptionInfo& option : splitter.options) printOption(option);
+  }
+  std::cout << "\nsplit options of all splits\n";
+  for (const OptionInfo& option : splitOptions()) printOption(option);
   return ExitCode::kOk;
 }
 

@@ -7,6 +7,7 @@
 #include "split_mapf/pipeline/plan_listener.h"
 #include "split_mapf/pipeline/plan_request.h"
 #include "split_mapf/solver/registry.h"
+#include "split_mapf/split/splitter_registry.h"
 
 namespace split_mapf {
 
@@ -14,9 +15,10 @@ namespace split_mapf {
 /// place where the stages meet. Thread-safe: several calls may share one executor.
 class Planner {
  public:
-  /// @pre both outlive the planner.
-  Planner(const SolverRegistry& solvers, Executor& executor)
-      : solvers_(solvers), executor_(executor) {}
+  /// @pre all outlive the planner.
+  Planner(const SolverRegistry& solvers, Executor& executor,
+          const SplitterRegistry& splitters = builtinSplitters())
+      : solvers_(solvers), executor_(executor), splitters_(splitters) {}
 
   /// Checks a request before any work. @throws UnknownSolverError, SplitSpecError, OptionError.
   void requireValid(const PlanRequest& request) const;
@@ -30,6 +32,7 @@ class Planner {
  private:
   const SolverRegistry& solvers_;
   Executor& executor_;
+  const SplitterRegistry& splitters_;
 };
 
 }  // namespace split_mapf

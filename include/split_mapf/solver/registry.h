@@ -6,16 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "split_mapf/core/option_info.h"
 #include "split_mapf/solver/solver.h"
 
 namespace split_mapf {
-
-/// One option of a solver or a splitter, as `split_mapf solvers` lists it.
-struct OptionInfo {
-  std::string name;
-  std::string default_value;
-  std::string description;
-};
 
 /// A registered solver.
 struct SolverInfo {

@@ -7,6 +7,7 @@
 
 #include "split_mapf/split/space_split.h"
 #include "split_mapf/split/splitter.h"
+#include "split_mapf/split/splitter_registry.h"
 
 namespace split_mapf {
 
@@ -25,6 +26,7 @@ class SpaceSplitter : public Splitter {
   /// @pre as SpaceSplit. @throws SplitSpecError when the regions do not fit the grid.
   SpaceSplitter(const Instance& instance, Options options);
   ~SpaceSplitter() override;
+  static SplitterInfo info();
 
   bool split(const Deadline& deadline) override;
   PieceTree tree() const override;

@@ -7,21 +7,17 @@
 #include <vector>
 
 #include "split_mapf/core/objective.h"
+#include "split_mapf/core/option_info.h"
 #include "split_mapf/split/space_split.h"
 #include "split_mapf/split/time_split.h"
 
 namespace split_mapf {
 
-/// One `--split-option`, as `split_mapf solvers` lists it.
-struct SplitOptionInfo {
-  std::string name;
-  std::string default_value;
-  std::string description;
-  bool space_only = false;  ///< has a meaning for space splits only
-};
-
-/// Every split option there is, in order of names.
-const std::vector<SplitOptionInfo>& splitOptions();
+/// The options of every split, whatever its splitter: what becomes of the joined plan.
+const std::vector<OptionInfo>& splitOptions();
+/// The options of splits in time, and of those in space, which may cut in time as well.
+const std::vector<OptionInfo>& timeSplitOptions();
+const std::vector<OptionInfo>& spaceSplitOptions();
 
 /// What a user may set about splitting. The one place where these defaults live.
 struct SplitOptions {
@@ -41,7 +37,7 @@ struct SplitOptions {
   SpaceSplitOptions space;
 };
 
-/// Reads split options. @throws OptionError for an unknown name or value.
+/// Reads those of them that there are. @throws OptionError for a value out of range.
 SplitOptions readSplitOptions(const std::map<std::string, std::string>& values,
                               Objective objective);
 

@@ -4,11 +4,16 @@
 #include <vector>
 
 #include "split_mapf/split/splitter.h"
+#include "split_mapf/split/splitter_registry.h"
 #include "split_mapf/split/time_split.h"
 
 namespace split_mapf {
 
 class PieceSequence;
+
+/// How a request cuts in time.
+TimeSplitOptions timeOptionsOf(const SplitRequest& request, const Instance& instance,
+                               std::uint64_t seed, const SolvabilityChecker* checker);
 
 /// Cuts in time: see splitTime(). A piece that fails is cut anew together with its neighbour, with
 /// other intermediate states; then the two become one piece with a double share; the last one left
@@ -18,6 +23,7 @@ class TimeSplitter : public Splitter {
   /// @param ways  see splitTime(). @pre `instance` and the options' checker outlive this object.
   TimeSplitter(const Instance& instance, TimeSplitOptions options, std::vector<Path> ways = {});
   ~TimeSplitter() override;
+  static SplitterInfo info();
 
   bool split(const Deadline& deadline) override;
   PieceTree tree() const override;
