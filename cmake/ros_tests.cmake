@@ -7,9 +7,9 @@ target_include_directories(split_mapf_ros_test_support PUBLIC ${CMAKE_CURRENT_SO
 target_link_libraries(split_mapf_ros_test_support PUBLIC split_mapf_ros)
 split_mapf_compile_options(split_mapf_ros_test_support)
 
-split_mapf_add_tests(ros split_mapf_ros split_mapf_ros_test_support ${YAML_CPP_LIBRARIES})
+split_mapf_add_tests(ros split_mapf_ros split_mapf_ros_test_support split_mapf_available_solvers ${YAML_CPP_LIBRARIES})
 
-foreach(name plan_server queue recall strange_goals answers)
+foreach(name plan_server queue recall strange_goals answers discs)
   add_rostest_gtest(${name}_rostest test/ros/${name}.test test/ros/${name}_rostest.cpp)
   target_include_directories(${name}_rostest PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/test)
   target_link_libraries(${name}_rostest split_mapf_ros_test_support split_mapf_test_support ${GTEST_LIBRARIES})

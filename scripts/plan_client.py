@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Sends a planning goal to the planner node and shows how it goes.
 
-The robots come from a MovingAI .scen, the map from a MovingAI .map, a map_server .yaml or, without
+The robots come from a MovingAI .scen, or from a .yaml with poses of robots that have size; the map from a MovingAI .map, a map_server .yaml or, without
 --map, from the topic `map` (for instance of: roslaunch split_mapf planner.launch map_file:=FILE).
 Files are read by `split_mapf convert`, as by all commands. Ctrl-C cancels the goal.
 
@@ -100,7 +100,7 @@ def grid_of(read):
 
 
 def read_instance(args):
-    """The map, and the ways of the robots as (start x, start y, goal x, goal y)."""
+    """The map, and the ways of the robots as (start x, start y, goal x, goal y), or their poses."""
     scenario = (("scen", args.scen), ("agents", args.agents))
     if args.map:
         read = convert(("map", args.map), ("resolution", args.resolution), *scenario)
@@ -110,6 +110,8 @@ def read_instance(args):
         if not grid.data:
             raise InputError("the map on the topic %s has no cells" % rospy.resolve_name("map"))
         read = convert(("size", "%dx%d" % (grid.info.width, grid.info.height)), *scenario)
+    if "robots" in read:
+        return grid, read["robots"]
     return grid, [start + goal for start, goal in zip(read["starts"], read["goals"])]
 
 
@@ -134,21 +136,40 @@ def place(pose, grid, x, y):
     pose.pose.orientation.w = 1.0
 
 
+def stand(pose, grid, x, y, yaw):
+    """Sets a pose of the map's frame."""
+    pose.header.frame_id = grid.header.frame_id
+    pose.pose.position.x, pose.pose.position.y = x, y
+    pose.pose.orientation.z, pose.pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
+
+
 def make_goal(args, grid, rows):
     goal = PlanPathsGoal()
     if args.map:
         goal.map = grid
+    if rows and isinstance(rows[0], dict):
+        for robot in rows:
+            task = RobotTask(robot_id=robot["id"], radius=robot["radius"] or 0.0)
+            stand(task.start, grid, *robot["start"])
+            stand(task.goal, grid, *robot["goal"])
+            goal.robots.append(task)
+        rows = []
     for index, (start_x, start_y, goal_x, goal_y) in enumerate(rows):
         task = RobotTask(robot_id="r%d" % index)
         place(task.start, grid, start_x, start_y)
         place(task.goal, grid, goal_x, goal_y)
         goal.robots.append(task)
     for name in ("solver", "split", "objective", "suboptimality", "time_limit", "refine_time",
-                 "seed", "threads", "step_duration", "solver_options", "split_options"):
+                 "seed", "threads", "step_duration", "solver_options", "split_options",
+                 "robot_radius", "clearance", "cell_size", "snap_distance", "robot_speed",
+                 "ignore_specks"):
         value = getattr(args, name)
         if value is not None:
             # In a goal 0 stands for the node's parameter, a negative number for zero.
             setattr(goal.options, name, -1.0 if value == 0 and isinstance(value, float) else value)
+    # The file says where robots that have size are at each step.
+    goal.options.fill_poses = bool(args.output) and (
+        args.robot_radius is not None or any(robot.radius > 0 for robot in goal.robots))
     return goal
 
 
@@ -264,6 +285,19 @@ def write_json(path, result, exit_code):
         "paths": [[[cell % width, height - 1 - cell // width] for cell in path.cells]
                   for path in plan.paths],
     }
+    if plan.longest_step > 0:
+        document.update({
+            "robot_radius": plan.robot_radius,
+            "clearance": plan.clearance,
+            "longest_step": plan.longest_step,
+            "departure_steps": plan.departure_steps,
+            "arrival_steps": plan.arrival_steps,
+            "robots": [path.robot_id for path in plan.paths],
+            "radii": [path.radius for path in plan.paths],
+            "least_clearance": [path.least_clearance for path in plan.paths],
+            "poses": [[[pose.pose.position.x, pose.pose.position.y] for pose in path.path.poses]
+                      for path in plan.paths],
+        })
     try:
         with open(path, "w", encoding="ascii") as file:
             json.dump(document, file)
@@ -288,7 +322,7 @@ def parse_arguments(arguments):
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--map", help="MovingAI .map, or map_server .yaml (default: the map on the "
                                       "topic `map`)")
-    parser.add_argument("--scen", required=True, help="MovingAI .scen")
+    parser.add_argument("--scen", required=True, help="MovingAI .scen, or .yaml with poses of robots that have size")
     parser.add_argument("--agents", type=at_least(0, int), default=0, metavar="N",
                         help="take the first N rows of the scenario; 0: all (0)")
     parser.add_argument("--resolution", type=at_least(1e-6, float), metavar="M",
@@ -305,6 +339,11 @@ def parse_arguments(arguments):
     options.add_argument("--time-limit", type=float, metavar="SECONDS")
     options.add_argument("--refine-time", type=float, metavar="SECONDS")
     options.add_argument("--step-duration", type=float, metavar="SECONDS")
+    for name, unit in (("robot-radius", "METRES"), ("clearance", "METRES"),
+                       ("cell-size", "METRES"), ("snap-distance", "METRES"),
+                       ("robot-speed", "M/S")):
+        options.add_argument("--" + name, type=at_least(0, float), metavar=unit)
+    options.add_argument("--ignore-specks", type=at_least(1, int), metavar="CELLS")
     options.add_argument("--seed", type=at_least(0, int))
     options.add_argument("--threads", type=at_least(0, int))
     parser.add_argument("--server", default="split_mapf/plan_paths",

@@ -38,10 +38,27 @@ std::string cellsText(const std::vector<Cell>& cells) {
   return text + "]";
 }
 
+nlohmann::json poseJson(const MapPose& pose) {
+  return nlohmann::json::array({pose.x_m, pose.y_m, pose.yaw_rad});
+}
+
+std::string robotsText(const std::vector<PosedRobot>& robots) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const PosedRobot& robot : robots) {
+    nlohmann::json radius;
+    if (robot.radius_m) radius = *robot.radius_m;
+    list.push_back({{"id", robot.id},
+                    {"start", poseJson(robot.start)},
+                    {"goal", poseJson(robot.goal)},
+                    {"radius", radius}});
+  }
+  return list.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+}
+
 }  // namespace
 
 void writeMapJson(std::ostream& out, MapSize size, const std::optional<OccupancyMap>& map,
-                  const std::optional<Scenario>& scenario) {
+                  const std::optional<Scenario>& scenario, const std::vector<PosedRobot>& robots) {
   using Json = nlohmann::json;
   const Json resolution = map ? Json(map->resolution_m) : Json(nullptr);
   const Json origin =
@@ -51,13 +68,15 @@ void writeMapJson(std::ostream& out, MapSize size, const std::optional<Occupancy
       << ",\n  \"resolution\": " << resolution.dump() << ",\n  \"origin\": " << origin.dump()
       << ",\n  \"occupancy\": " << (map ? '"' + base64Of(map->occupancy) + '"' : "null")
       << ",\n  \"starts\": " << (scenario ? cellsText(scenario->starts) : "null")
-      << ",\n  \"goals\": " << (scenario ? cellsText(scenario->goals) : "null") << "\n}\n";
+      << ",\n  \"goals\": " << (scenario ? cellsText(scenario->goals) : "null");
+  if (!robots.empty()) out << ",\n  \"robots\": " << robotsText(robots);
+  out << "\n}\n";
 }
 
 void writeMapJson(const std::string& path, MapSize size, const std::optional<OccupancyMap>& map,
-                  const std::optional<Scenario>& scenario) {
+                  const std::optional<Scenario>& scenario, const std::vector<PosedRobot>& robots) {
   std::ostringstream out;
-  writeMapJson(out, size, map, scenario);
+  writeMapJson(out, size, map, scenario, robots);
   writeFile(path, out.str());
 }
 

@@ -47,8 +47,9 @@ double longestLeg(const Roadmap& roadmap, const std::vector<Vertex>& vertices,
   double longest = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const std::uint32_t cell = roadmap.cells[vertices[i]];
+    const std::uint32_t row = cell / roadmap.width;
     const double x = (cell % roadmap.width + 0.5) * roadmap.resolution_m;
-    const double y = (cell / roadmap.width + 0.5) * roadmap.resolution_m;
+    const double y = (row + 0.5) * roadmap.resolution_m;
     longest = std::max(longest, std::hypot(x - poses[i].x, y - poses[i].y));
   }
   return longest;

@@ -33,15 +33,16 @@ struct Side {
 class Attacher {
  public:
   Attacher(const ObstacleRaster& raster, const Roadmap& roadmap,
-           const std::vector<RobotPoses>& robots, double snap_distance_m)
+           const std::vector<RobotPoses>& robots, double snap_distance_m, const Deadline& deadline)
       : raster_(raster),
         roadmap_(roadmap),
         robots_(robots),
+        deadline_(deadline),
         finder_(roadmap),
         snap_(snap_distance_m > 0 ? snap_distance_m / raster.resolution_m
                                   : static_cast<double>(roadmap.spacing_cells)) {}
 
-  Attachment run(const Deadline& deadline) {
+  Attachment run() {
     Side starts{false, {}, {}};
     Side goals{true, {}, {}};
     for (const RobotPoses& robot : robots_) {
@@ -52,6 +53,7 @@ class Attacher {
     findOptions(goals);
     findOverlaps(starts);
     findOverlaps(goals);
+    if (result_.faults.empty()) requireVertices(starts);
     if (result_.faults.empty()) keepToOnePiece(starts, goals);
     if (result_.faults.empty()) result_.departure = matchAndOrder(starts);
     if (result_.faults.empty()) result_.arrival = matchAndOrder(goals);
@@ -61,7 +63,7 @@ class Attacher {
     std::stable_sort(
         result_.faults.begin(), result_.faults.end(),
         [](const AttachmentFault& a, const AttachmentFault& b) { return a.robot < b.robot; });
-    addBottlenecks(deadline);
+    addBottlenecks();
     return std::move(result_);
   }
 
@@ -92,6 +94,7 @@ class Attacher {
     side.options.resize(side.poses.size());
     const double touch = kTouchM / raster_.resolution_m;
     for (std::uint32_t robot = 0; robot < side.poses.size(); ++robot) {
+      deadline_.require();
       const Place pose = toCells(side.poses[robot]);
       if (!(pose.x >= -0.5 && pose.y >= -0.5 && pose.x <= raster_.width - 0.5 &&
             pose.y <= raster_.height - 0.5)) {
@@ -122,6 +125,7 @@ class Attacher {
 
   void findOverlaps(const Side& side) {
     for (std::uint32_t i = 0; i < side.poses.size(); ++i) {
+      deadline_.require();
       for (std::uint32_t j = 0; j < i; ++j) {
         const double need = radiusOf(i) + needOf(j);
         const double gap =
@@ -133,6 +137,12 @@ class Attacher {
         fault.needed_m = need;
         break;
       }
+    }
+  }
+
+  void requireVertices(const Side& starts) {
+    for (std::size_t robot = roadmap_.cells.size(); robot < robots_.size(); ++robot) {
+      report(static_cast<std::uint32_t>(robot), AttachmentFaultKind::kTaken, starts);
     }
   }
 
@@ -173,7 +183,7 @@ class Attacher {
       }
       if (!result_.faults.empty()) return legs;
       const std::vector<Leg> ways = waysOf(side, legs.vertices);
-      waves = roadmap::planWaves(ways, roadmap_.clearance_m / raster_.resolution_m);
+      waves = roadmap::planWaves(ways, roadmap_.clearance_m / raster_.resolution_m, deadline_);
       if (waves.stuck.empty()) {
         const bool any = std::any_of(ways.begin(), ways.end(), [](const Leg& leg) {
           return std::hypot(leg.to.x - leg.from.x, leg.to.y - leg.from.y) > kTouchM;
@@ -216,7 +226,7 @@ class Attacher {
     return false;
   }
 
-  void addBottlenecks(const Deadline& deadline) {
+  void addBottlenecks() {
     std::vector<std::pair<MapPoint, MapPoint>> ways;
     std::vector<AttachmentFault*> of_ways;
     const double need = roadmap_.robot_radius_m + roadmap_.clearance_m;
@@ -225,18 +235,19 @@ class Attacher {
           fault.kind != AttachmentFaultKind::kOtherPiece) {
         continue;
       }
-      fault.bottleneck = Bottleneck{need, fault.pose};  // what is not searched is not proved
       of_ways.push_back(&fault);
       ways.emplace_back(robots_[fault.robot].start, robots_[fault.robot].goal);
     }
     if (ways.empty()) return;
-    const auto found = findBottlenecks(raster_, ways, need, deadline);
+    const auto found = findBottlenecks(raster_, ways, need, deadline_);
+    deadline_.require();
     for (std::size_t i = 0; i < found.size(); ++i) of_ways[i]->bottleneck = found[i];
   }
 
   const ObstacleRaster& raster_;
   const Roadmap& roadmap_;
   const std::vector<RobotPoses>& robots_;
+  const Deadline& deadline_;
   VertexFinder finder_;
   double snap_;  // [cells]
   Attachment result_;
@@ -247,7 +258,7 @@ class Attacher {
 Attachment attachRobots(const ObstacleRaster& raster, const Roadmap& roadmap,
                         const std::vector<RobotPoses>& robots, double snap_distance_m,
                         const Deadline& deadline) {
-  return Attacher(raster, roadmap, robots, snap_distance_m).run(deadline);
+  return Attacher(raster, roadmap, robots, snap_distance_m, deadline).run();
 }
 
 }  // namespace split_mapf

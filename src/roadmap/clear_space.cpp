@@ -6,7 +6,8 @@
 
 #include "split_mapf/roadmap/distance_field.h"
 
-namespace split_mapf::roadmap {
+namespace split_mapf {
+namespace roadmap {
 namespace {
 
 // Radii come from decimal fractions of a metre: a disc that just touches has room.
@@ -89,6 +90,18 @@ double leastDistance(const ObstacleRaster& raster, Place from, Place to, double 
   return std::sqrt(square);
 }
 
+}  // namespace roadmap
+
+std::vector<bool> freeGround(const ObstacleRaster& raster, double need_m,
+                             const Deadline& deadline) {
+  const roadmap::ClearSpace space(raster, need_m / raster.resolution_m, deadline);
+  std::vector<bool> ground(space.cells());
+  for (std::size_t i = 0; i < ground.size(); ++i) ground[i] = space.isClear(i);
+  return ground;
+}
+
+namespace roadmap {
+
 ClearSpace::ClearSpace(const ObstacleRaster& raster, double radius, const Deadline& deadline)
     : raster_(raster),
       radius_(radius),
@@ -161,4 +174,5 @@ bool ClearSpace::isClearWay(Cell from, Cell to) const {
   return sure || isFarFromObstacles(from, to);
 }
 
-}  // namespace split_mapf::roadmap
+}  // namespace roadmap
+}  // namespace split_mapf

@@ -23,8 +23,7 @@ void trim(Course& course) {
 
 std::vector<Course> coursesOf(const Roadmap& roadmap, const std::vector<RobotPoses>& robots,
                               const Attachment& attachment, const Plan& plan) {
-  std::size_t steps = 0;
-  for (const Path& path : plan.paths) steps = std::max(steps, path.size() - 1);
+  const std::size_t steps = makespanOf(plan);
   std::vector<Course> courses(robots.size());
   for (std::size_t i = 0; i < robots.size(); ++i) {
     Course& course = courses[i];

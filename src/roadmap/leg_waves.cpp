@@ -22,7 +22,7 @@ bool keepApart(const Leg& a, const Leg& b, double separation) {
 
 }  // namespace
 
-LegWaves planWaves(const std::vector<Leg>& legs, double clearance) {
+LegWaves planWaves(const std::vector<Leg>& legs, double clearance, const Deadline& deadline) {
   constexpr std::uint32_t kWaiting = 0xffffffffU;
   LegWaves result;
   result.waves.assign(legs.size(), kWaiting);
@@ -32,6 +32,7 @@ LegWaves planWaves(const std::vector<Leg>& legs, double clearance) {
     bool moved = false;
     for (std::size_t i = 0; i < legs.size(); ++i) {
       if (result.waves[i] != kWaiting) continue;
+      deadline.require();
       const auto lets = [&](std::size_t j) {
         if (i == j) return true;
         const Place stands = result.waves[j] < wave ? legs[j].to : legs[j].from;

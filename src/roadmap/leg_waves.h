@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "roadmap/clear_space.h"
+#include "split_mapf/core/deadline.h"
 
 namespace split_mapf::roadmap {
 
@@ -23,7 +24,7 @@ struct LegWaves {
 };
 
 /// Lets in each wave go whom it can, in the order of the robots. Centres keep both radii and the
-/// clearance apart. Cost: O(waves * robots^2).
-LegWaves planWaves(const std::vector<Leg>& legs, double clearance);
+/// clearance apart. Cost: O(waves * robots^2). @throws Interrupted.
+LegWaves planWaves(const std::vector<Leg>& legs, double clearance, const Deadline& deadline);
 
 }  // namespace split_mapf::roadmap

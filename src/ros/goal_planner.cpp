@@ -30,20 +30,31 @@ auto withGoalErrors(const Part& part) {
   }
 }
 
+GoalOptions withStepDuration(GoalOptions options, double longest_step_m) {
+  options.step_duration_sec = stepDurationOf(options, longest_step_m);
+  return options;
+}
+
 /// Cells of each robot's path at least: the straight ways.
 std::vector<std::uint32_t> leastPoints(const Instance& instance) {
+  const auto longest = static_cast<int>(instance.grid().longestMove());
   std::vector<std::uint32_t> points;
   for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {
     const Cell from = instance.grid().cellOf(instance.start(robot));
     const Cell to = instance.grid().cellOf(instance.goal(robot));
-    points.push_back(static_cast<std::uint32_t>(std::abs(from.x - to.x) + std::abs(from.y - to.y)) +
-                     1);
+    const int apart = std::abs(from.x - to.x) + std::abs(from.y - to.y);
+    points.push_back(static_cast<std::uint32_t>((apart + longest - 1) / longest) + 1);
   }
   return points;
 }
 
-std::vector<std::uint32_t> pointsOf(const Plan& plan) {
+/// Cells of each robot's path, or, of robots that have size, poses of its way at most.
+std::vector<std::uint32_t> pointsOf(const PreparedGoal& goal, const Plan& plan) {
   std::vector<std::uint32_t> points;
+  if (goal.grid.discs) {
+    points.assign(plan.paths.size(), stepsOf(goal.grid.discs->problem, plan) + 1);
+    return points;
+  }
   for (const Path& path : plan.paths)
     points.push_back(static_cast<std::uint32_t>(costOf(path)) + 1);
   return points;
@@ -101,15 +112,28 @@ PreparedGoal GoalPlanner::prepareUntil(const boost::shared_ptr<const PlanPathsGo
   }
   const std::shared_ptr<const nav_msgs::OccupancyGrid> sent(&goal->map, [goal](const void*) {});
   const std::shared_ptr<const nav_msgs::OccupancyGrid> map = maps_.choose(sent);
+  if (asksForRoadmap(options, goal->robots, map->info.resolution)) {
+    PlacedDiscs discs =
+        placeDiscs(goal->robots, *map, options, transformer_.forGoal(deadline), deadline, doing);
+    return prepareDiscs(options, std::move(discs));
+  }
   PlanningGrid grid = makePlanningGrid(*map, options.occupancy, deadline);
-  requireMapCells(options, grid.geometry.info().resolution);
   doing = "while the robots were being placed";
   PlacedRobots robots = placeRobots(goal->robots, grid, *map, transformer_.forGoal(deadline));
   if (options_.publish_paths) distinctRosNames(robots.ids);
   Instance instance(grid.grid, robots.starts, robots.goals);
   doing = "while it was being checked whether goals can be reached";
   requireReachableGoals(instance, robots.ids, grid.geometry, deadline);
-  return PreparedGoal{options, std::move(grid), std::move(robots), std::move(instance)};
+  return PreparedGoal{withStepDuration(options, grid.geometry.info().resolution), std::move(grid),
+                      std::move(robots), std::move(instance)};
+}
+
+PreparedGoal GoalPlanner::prepareDiscs(const GoalOptions& options, PlacedDiscs discs) const {
+  if (options_.publish_paths) distinctRosNames(discs.ids);
+  const DiscProblem& problem = discs.grid.discs->problem;
+  const Instance instance = problem.instance();
+  return PreparedGoal{withStepDuration(options, problem.longestStep()), std::move(discs.grid),
+                      PlacedRobots{std::move(discs.ids), {}, {}}, instance};
 }
 
 GoalAnswer GoalPlanner::plan(const PreparedGoal& goal, const Deadline& deadline,
@@ -142,7 +166,7 @@ GoalAnswer GoalPlanner::plan(const PreparedGoal& goal, const Deadline& deadline,
 }
 
 PlanMessages GoalPlanner::messagesOf(const PreparedGoal& goal, const PlanReport& report) const {
-  withGoalErrors([&] { requireFits(goal, pointsOf(*report.plan), false); });
+  withGoalErrors([&] { requireFits(goal, pointsOf(goal, *report.plan), false); });
   PlanMessages messages;
   messages.plan = toMessage(report, goal.robots.ids, goal.grid, goal.options.step_duration_sec,
                             ros::Time::now());

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
+#include "split_mapf/ros/plan_messages.h"
 
 namespace split_mapf {
 namespace {
@@ -40,6 +42,7 @@ std_msgs::ColorRGBA fromHsv(double hue, double saturation, double value) {
 
 double robotSize(const MarkerStyle& style, const MultiRobotPlan& plan) {
   double cells = style.robot_size_cells;
+  if (cells == 0 && isOnRoadmap(plan) && plan.robot_radius > 0) return 2 * plan.robot_radius;
   if (cells == 0) {
     const double crowd = std::max(1.0, static_cast<double>(plan.paths.size()) / kFewRobots);
     const double extent = std::max(plan.grid.width, plan.grid.height);
@@ -63,6 +66,8 @@ void requireDrawable(const MultiRobotPlan& plan) {
     if (path.cells.empty()) {
       throw InputError("the path of robot " + quote(path.robot_id) + " is empty");
     }
+    const std::string fault = faultOfLegs(plan, path);
+    if (!fault.empty()) throw InputError("robot " + quote(path.robot_id) + " " + fault);
     for (const std::uint32_t cell : path.cells) {
       if (cell < cells) continue;
       throw InputError("the path of robot " + quote(path.robot_id) + " enters cell " +
@@ -87,11 +92,9 @@ PlanMarkers::PlanMarkers(const MultiRobotPlan& plan, const MarkerStyle& style)
   requireDrawable(plan);
   for (const RobotPath& path : plan.paths) {
     ids_.push_back(path.robot_id);
-    ways_.emplace_back();
-    for (const std::uint32_t cell : path.cells) {
-      ways_.back().push_back(geometry_.centreOf(geometry_.cellOf(cell)));
-    }
-    steps_ = std::max(steps_, static_cast<double>(path.cells.size() - 1));
+    ways_.push_back(wayOf(plan, ways_.size(), geometry_));
+    steps_ = std::max(steps_, static_cast<double>(ways_.back().size() - 1));
+    if (isOnRoadmap(plan) && style.robot_size_cells == 0) radii_.push_back(path.radius);
   }
 }
 
@@ -130,6 +133,7 @@ geometry_msgs::Point PlanMarkers::pointAt(const Way& way, double position) const
 }
 
 Marker PlanMarkers::robots(double position, const ros::Time& stamp) const {
+  if (areOfSeveralSizes()) return discsOfSeveralSizes(position, stamp);
   Marker marker = frame("robots", Marker::SPHERE_LIST, stamp);
   marker.scale.x = marker.scale.y = robot_size_m_;
   // Flat enough that robots side by side do not hide each other's labels and goals.
@@ -137,6 +141,34 @@ Marker PlanMarkers::robots(double position, const ros::Time& stamp) const {
   for (std::size_t i = 0; i < ways_.size(); ++i) {
     marker.points.push_back(lifted(pointAt(ways_[i], position), kRobotHeight * robot_size_m_));
     marker.colors.push_back(colourOf(i));
+  }
+  return marker;
+}
+
+bool PlanMarkers::areOfSeveralSizes() const {
+  return std::adjacent_find(radii_.begin(), radii_.end(), std::not_equal_to<>()) != radii_.end();
+}
+
+/// A list of spheres has one size: discs of several are fans of triangles.
+Marker PlanMarkers::discsOfSeveralSizes(double position, const ros::Time& stamp) const {
+  constexpr int kCorners = 24;
+  Marker marker = frame("robots", Marker::TRIANGLE_LIST, stamp);
+  marker.scale.x = marker.scale.y = marker.scale.z = 1;
+  for (std::size_t i = 0; i < ways_.size(); ++i) {
+    const geometry_msgs::Point centre =
+        lifted(pointAt(ways_[i], position), kRobotHeight * robot_size_m_);
+    const auto corner = [&](int number) {
+      geometry_msgs::Point p = centre;
+      p.x += radii_[i] * std::cos(number * 2 * M_PI / kCorners);
+      p.y += radii_[i] * std::sin(number * 2 * M_PI / kCorners);
+      return p;
+    };
+    for (int k = 0; k < kCorners; ++k) {
+      for (const geometry_msgs::Point& p : {centre, corner(k), corner(k + 1)}) {
+        marker.points.push_back(p);
+        marker.colors.push_back(colourOf(i));
+      }
+    }
   }
   return marker;
 }

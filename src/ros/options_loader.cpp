@@ -1,6 +1,6 @@
 #include "split_mapf/ros/options_loader.h"
 
-#include <cmath>
+#include <algorithm>
 #include <limits>
 #include <set>
 
@@ -21,6 +21,8 @@ constexpr double kMostMetres = 1e6;
 // known.
 constexpr double kLeastStep = 1e-6;
 constexpr double kMostStep = 1e6;
+constexpr double kMostSpeed = 1e6;  // [m/s]
+constexpr double kRounding = 1e-9;
 
 /// Refuses what is no number, too.
 void requireWithin(double value, const std::string& name, double least, double most) {
@@ -48,7 +50,12 @@ void checkNumbers(const GoalOptions& options) {
   requireWithin(options.plan.refine_sec, "refine_time", 0, kMostSeconds);
   requireWithin(options.robot_radius_m, "robot_radius", 0, kMostMetres);
   requireWithin(options.cell_size_m, "cell_size", 0, kMostMetres);
-  requireWithin(options.step_duration_sec, "step_duration", kLeastStep, kMostStep);
+  requireWithin(options.clearance_m, "clearance", 0, kMostMetres);
+  requireWithin(options.snap_distance_m, "snap_distance", 0, kMostMetres);
+  requireWithin(options.robot_speed_mps, "robot_speed", 0, kMostSpeed);
+  if (options.step_duration_sec != 0) {
+    requireWithin(options.step_duration_sec, "step_duration", kLeastStep, kMostStep);
+  }
   checkThreshold(options.occupancy.occupied_threshold);
 }
 
@@ -64,6 +71,15 @@ bool isFreeWhenUnknown(std::uint8_t unknown_space, bool default_value) {
       throw OptionError("unknown_space " + std::to_string(unknown_space) +
                         " is out of range: 0 (the server's), 1 (blocked) or 2 (free) is expected");
   }
+}
+
+bool areOn(std::uint8_t passages, bool default_value) {
+  if (passages > PlanOptions::PASSAGES_ON) {
+    throw OptionError("passages " + std::to_string(passages) +
+                      " is out of range: 0 (the server's), 1 (off) or 2 (on) is expected");
+  }
+  if (passages == PlanOptions::PASSAGES_DEFAULT) return default_value;
+  return passages == PlanOptions::PASSAGES_ON;
 }
 
 void readPlanRequest(ParameterReader& reader, PlanRequest& plan) {
@@ -86,6 +102,12 @@ void readGoalOptions(ParameterReader& reader, GoalOptions& options) {
   readPlanRequest(reader, options.plan);
   reader.read("robot_radius", options.robot_radius_m);
   reader.read("cell_size", options.cell_size_m);
+  reader.read("clearance", options.clearance_m);
+  reader.read("snap_distance", options.snap_distance_m);
+  reader.read("passages", options.passages);
+  options.ignore_specks = static_cast<std::uint32_t>(
+      reader.readInteger("ignore_specks", options.ignore_specks, {0, kMaxUint32}));
+  reader.read("robot_speed", options.robot_speed_mps);
   const std::int64_t unknown_default = options.occupancy.unknown_is_free
                                            ? PlanOptions::UNKNOWN_SPACE_FREE
                                            : PlanOptions::UNKNOWN_SPACE_BLOCKED;
@@ -153,29 +175,42 @@ GoalOptions mergeOptions(const PlanOptions& asked, const GoalOptions& defaults) 
   if (asked.threads != 0) plan.threads = asked.threads;
   options.robot_radius_m = choose(asked.robot_radius, options.robot_radius_m);
   options.cell_size_m = choose(asked.cell_size, options.cell_size_m);
+  options.clearance_m = choose(asked.clearance, options.clearance_m);
+  options.snap_distance_m = choose(asked.snap_distance, options.snap_distance_m);
+  options.passages = areOn(asked.passages, options.passages);
+  if (asked.ignore_specks != 0) {
+    options.ignore_specks = static_cast<std::uint32_t>(std::max(0, asked.ignore_specks));
+  }
   options.occupancy.unknown_is_free =
       isFreeWhenUnknown(asked.unknown_space, options.occupancy.unknown_is_free);
   options.occupancy.occupied_threshold =
       choose<int>(asked.occupied_threshold, options.occupancy.occupied_threshold);
+  options.robot_speed_mps = choose(asked.robot_speed, options.robot_speed_mps);
   options.step_duration_sec = choose(asked.step_duration, options.step_duration_sec);
+  // Who says a speed and no duration asks for the one that belongs to it.
+  if (asked.robot_speed > 0 && asked.step_duration == 0) options.step_duration_sec = 0;
   options.fill_poses = options.fill_poses || asked.fill_poses;
   checkNumbers(options);
   return options;
 }
 
-void requireMapCells(const GoalOptions& options, double resolution_m) {
-  if (options.robot_radius_m != 0) {
-    throw OptionError("robot_radius " + numeral(options.robot_radius_m) +
-                      " m is not available yet: only point robots (0) can be planned for");
+double stepDurationOf(const GoalOptions& options, double longest_step_m) {
+  const double speed = options.robot_speed_mps;
+  const double needed = speed > 0 ? longest_step_m / speed : 1;
+  if (options.step_duration_sec == 0) {
+    requireWithin(needed,
+                  "step_duration (longest step " + numeral(longest_step_m) + " m / robot_speed " +
+                      numeral(speed) + " m/s)",
+                  kLeastStep, kMostStep);
+    return needed;
   }
-  // A resolution comes as a 32-bit number, a cell size as a 64-bit one.
-  const bool is_map_cell = options.cell_size_m == 0 ||
-                           std::abs(options.cell_size_m - resolution_m) <= 1e-6 * resolution_m;
-  if (!is_map_cell) {
-    throw OptionError("cell_size " + numeral(options.cell_size_m) +
-                      " m is not available yet: a planning cell is a map cell of " +
-                      numeral(resolution_m) + " m (0 asks for it)");
+  if (speed > 0 && options.step_duration_sec < needed * (1 - kRounding)) {
+    throw OptionError("step_duration " + numeral(options.step_duration_sec) +
+                      " s is too short: the longest step of " + numeral(longest_step_m) +
+                      " m takes " + numeral(needed) + " s at robot_speed " + numeral(speed) +
+                      " m/s (0 derives it)");
   }
+  return options.step_duration_sec;
 }
 
 }  // namespace split_mapf

@@ -9,7 +9,9 @@
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/validate.h"
 #include "split_mapf/core/wording.h"
+#include "split_mapf/roadmap/courses.h"
 #include "split_mapf/ros/outcome.h"
+#include "split_mapf/ros/plan_messages.h"
 
 namespace split_mapf {
 namespace {
@@ -63,9 +65,9 @@ class ViolationWriter {
   const CellPaths& paths_;
 };
 
-void checkGrid(const MultiRobotPlan& plan, const PlanningGrid& grid,
+void checkGrid(const MultiRobotPlan& plan, const MapGeometry& map,
                std::vector<std::string>& found) {
-  const nav_msgs::MapMetaData& of_map = grid.geometry.info();
+  const nav_msgs::MapMetaData& of_map = map.info();
   if (plan.grid.width != of_map.width || plan.grid.height != of_map.height ||
       plan.grid.resolution != of_map.resolution) {
     found.push_back("the plan's grid of " + std::to_string(plan.grid.width) + "x" +
@@ -77,13 +79,13 @@ void checkGrid(const MultiRobotPlan& plan, const PlanningGrid& grid,
   }
   try {
     const MapGeometry geometry(plan.grid, plan.header.frame_id);
-    const geometry_msgs::Point ours = grid.geometry.centreOf({0, 0});
+    const geometry_msgs::Point ours = map.centreOf({0, 0});
     const geometry_msgs::Point theirs = geometry.centreOf({0, 0});
-    if (geometry.frame() != grid.geometry.frame()) {
+    if (geometry.frame() != map.frame()) {
       found.push_back("the plan's frame " + quote(geometry.frame()) + " is not the map's frame " +
-                      quote(grid.geometry.frame()));
+                      quote(map.frame()));
     } else if (std::hypot(ours.x - theirs.x, ours.y - theirs.y) > 0.01 * of_map.resolution ||
-               std::abs(std::remainder(geometry.yaw() - grid.geometry.yaw(), 2 * M_PI)) > 1e-4) {
+               std::abs(std::remainder(geometry.yaw() - map.yaw(), 2 * M_PI)) > 1e-4) {
       found.emplace_back("the plan's grid has another origin than the map");
     }
   } catch (const GoalError& error) {
@@ -143,20 +145,118 @@ void checkPaths(const MultiRobotPlan& plan, const PlanningGrid& grid,
   }
 }
 
+/// At most so many, and how many more there are.
+void shorten(std::vector<std::string>& found) {
+  if (found.size() <= kMostViolations) return;
+  const std::size_t more = found.size() - kMostViolations;
+  found.resize(kMostViolations);
+  found.push_back("and " + counted(more, "more violation"));
+}
+
+/// Whether the robots' ways can be put together from what the plan says.
+void checkShapes(const MultiRobotPlan& plan, std::vector<std::string>& found) {
+  const std::uint64_t cells = std::uint64_t{plan.grid.width} * plan.grid.height;
+  for (const RobotPath& path : plan.paths) {
+    const std::string who = "robot " + quote(path.robot_id) + " ";
+    const std::string fault = faultOfLegs(plan, path);
+    if (!fault.empty()) found.push_back(who + fault);
+    if (path.cells.empty()) found.push_back(who + "has an empty path");
+    for (const std::uint32_t cell : path.cells) {
+      if (cell < cells) continue;
+      found.push_back(who + "is in cell " + std::to_string(cell) + " of a map of " +
+                      std::to_string(cells) + " cells");
+      break;
+    }
+    if (!(path.radius >= 0 && path.radius <= plan.robot_radius)) {
+      found.push_back(who + "has radius " + numeral(path.radius) + " m in a plan for at most " +
+                      numeral(plan.robot_radius) + " m");
+    }
+  }
+  if (!(plan.clearance >= 0)) {
+    found.push_back("the plan's clearance is " + numeral(plan.clearance) + " m");
+  }
+}
+
+/// The poses of a filled path have to be the way that the cells and legs say.
+void comparePoses(const RobotPath& path, const std::vector<geometry_msgs::Point>& way,
+                  std::vector<std::string>& found) {
+  constexpr double kSamePlaceM = 1e-6;
+  if (path.path.poses.empty()) return;
+  const std::string who = "robot " + quote(path.robot_id);
+  if (path.path.poses.size() != way.size()) {
+    found.push_back(who + " has " + counted(path.path.poses.size(), "pose") + " for " +
+                    counted(way.size() - 1, "step"));
+    return;
+  }
+  for (std::size_t step = 0; step < way.size(); ++step) {
+    const geometry_msgs::Point& p = path.path.poses[step].pose.position;
+    if (std::hypot(p.x - way[step].x, p.y - way[step].y) <= kSamePlaceM) continue;
+    found.push_back(who + " has another pose at step " + std::to_string(step) +
+                    " than its cells and legs say");
+    return;
+  }
+}
+
+void checkLongestStep(const MultiRobotPlan& plan, std::size_t robot, const Course& course,
+                      std::vector<std::string>& found) {
+  for (std::size_t step = 1; step < course.size(); ++step) {
+    const double length =
+        std::hypot(course[step].x - course[step - 1].x, course[step].y - course[step - 1].y);
+    if (length <= plan.longest_step + 1e-6) continue;
+    found.push_back("robot " + quote(plan.paths[robot].robot_id) + " covers " + inMetres(length) +
+                    " in step " + std::to_string(step) + ", more than longest_step, " +
+                    inMetres(plan.longest_step));
+    return;
+  }
+}
+
 }  // namespace
+
+std::vector<std::string> findDiscViolations(const MultiRobotPlan& plan, const MapGeometry& geometry,
+                                            const ObstacleRaster& raster,
+                                            const Deadline& deadline) {
+  std::vector<std::string> found;
+  if (plan.paths.empty()) found.emplace_back("the plan has no paths");
+  checkGrid(plan, geometry, found);
+  checkRobotIds(plan, found);
+  checkCosts(plan, found);
+  const std::size_t of_claims = found.size();
+  checkShapes(plan, found);
+  if (found.size() > of_claims || plan.paths.empty()) {
+    shorten(found);
+    return found;
+  }
+  const MapFrame frame = frameOf(geometry);
+  Discs discs;
+  discs.clearance_m = plan.clearance;
+  std::vector<Course> courses;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < plan.paths.size(); ++i) {
+    deadline.require();
+    const std::vector<geometry_msgs::Point> way = wayOf(plan, i, geometry);
+    comparePoses(plan.paths[i], way, found);
+    Course& course = courses.emplace_back();
+    for (const geometry_msgs::Point& p : way) course.push_back(toRaster(frame, {p.x, p.y}));
+    checkLongestStep(plan, i, course, found);
+    discs.radius_m.push_back(plan.paths[i].radius);
+    names.push_back("robot " + quote(plan.paths[i].robot_id));
+  }
+  const DiscCheck check = checkDiscs(raster, discs, courses, kMostViolations + 1, deadline);
+  for (const DiscViolation& violation : check.violations) {
+    found.push_back(explain(violation, names, frame));
+  }
+  shorten(found);
+  return found;
+}
 
 std::vector<std::string> findViolations(const MultiRobotPlan& plan, const PlanningGrid& grid) {
   std::vector<std::string> found;
   if (plan.paths.empty()) found.emplace_back("the plan has no paths");
-  checkGrid(plan, grid, found);
+  checkGrid(plan, grid.geometry, found);
   checkRobotIds(plan, found);
   checkCosts(plan, found);
   checkPaths(plan, grid, found);
-  if (found.size() > kMostViolations) {
-    const std::size_t more = found.size() - kMostViolations;
-    found.resize(kMostViolations);
-    found.push_back("and " + counted(more, "more violation"));
-  }
+  shorten(found);
   return found;
 }
 

@@ -1,10 +1,12 @@
 #include "split_mapf/ros/plan_messages.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
+#include "split_mapf/ros/disc_goal.h"
 #include "split_mapf/ros/orientation.h"
 
 namespace split_mapf {
@@ -31,7 +33,52 @@ std::vector<double> headingsOf(const std::vector<geometry_msgs::Point>& points, 
   return headings;
 }
 
+void keepHeading(const geometry_msgs::Pose& asked, geometry_msgs::Pose& pose) {
+  if (!isAllZero(asked.orientation)) pose.orientation = asked.orientation;
+}
+
 }  // namespace
+
+bool isOnRoadmap(const MultiRobotPlan& plan) { return plan.longest_step > 0; }
+
+std::string faultOfLegs(const MultiRobotPlan& plan, const RobotPath& path) {
+  if (!isOnRoadmap(plan)) return "";
+  // A wave lets at least one robot go.
+  const std::size_t most = plan.paths.size();
+  if (plan.departure_steps > most || plan.arrival_steps > most) {
+    return "is of a plan with " + std::to_string(plan.departure_steps) + " and " +
+           std::to_string(plan.arrival_steps) + " steps of legs, but has " +
+           counted(most, "robot") + ", of which each needs one at most";
+  }
+  if (path.departure_steps <= plan.departure_steps && path.arrival_steps <= plan.arrival_steps) {
+    return "";
+  }
+  return "has " + std::to_string(path.departure_steps) + " and " +
+         std::to_string(path.arrival_steps) + " steps of legs, the plan has " +
+         std::to_string(plan.departure_steps) + " and " + std::to_string(plan.arrival_steps);
+}
+
+std::vector<geometry_msgs::Point> wayOf(const MultiRobotPlan& plan, std::size_t robot,
+                                        const MapGeometry& geometry) {
+  const RobotPath& path = plan.paths[robot];
+  std::vector<geometry_msgs::Point> points;
+  const bool legs = isOnRoadmap(plan);
+  if (legs) points.assign(path.departure_steps, path.start.position);
+  const std::size_t waits = legs ? plan.departure_steps - path.departure_steps : 0;
+  const geometry_msgs::Point first = geometry.centreOf(geometry.cellOf(path.cells.front()));
+  points.insert(points.end(), waits, first);
+  for (const std::uint32_t cell : path.cells) {
+    points.push_back(geometry.centreOf(geometry.cellOf(cell)));
+  }
+  if (!legs || path.arrival_steps == 0) return points;
+  // Not as the plan claims: this counts what is there.
+  std::size_t longest = 1;
+  for (const RobotPath& other : plan.paths) longest = std::max(longest, other.cells.size());
+  const std::size_t leaves = plan.departure_steps + longest - 1 + path.arrival_steps;
+  points.resize(std::max(points.size(), leaves), points.back());
+  points.push_back(path.goal.position);
+  return points;
+}
 
 MultiRobotPlan toMessage(const PlanReport& report, const std::vector<std::string>& ids,
                          const PlanningGrid& grid, double step_duration_sec,
@@ -55,6 +102,7 @@ MultiRobotPlan toMessage(const PlanReport& report, const std::vector<std::string
       out.cells.push_back(grid.geometry.indexOf(grid.grid->cellOf(path[k])));
     }
   }
+  if (grid.discs) addDiscs(grid, *report.plan, message);
   return message;
 }
 
@@ -79,10 +127,7 @@ PlanStatistics statisticsOf(const PlanReport& report) {
 
 nav_msgs::Path posesOf(const MultiRobotPlan& plan, std::size_t robot) {
   const MapGeometry geometry(plan.grid, plan.header.frame_id);
-  std::vector<geometry_msgs::Point> points;
-  for (const std::uint32_t cell : plan.paths[robot].cells) {
-    points.push_back(geometry.centreOf(geometry.cellOf(cell)));
-  }
+  const std::vector<geometry_msgs::Point> points = wayOf(plan, robot, geometry);
   const std::vector<double> headings = headingsOf(points, geometry.yaw());
   nav_msgs::Path path;
   path.header = plan.header;
@@ -94,6 +139,10 @@ nav_msgs::Path posesOf(const MultiRobotPlan& plan, std::size_t robot) {
         plan.header.stamp + ros::Duration(static_cast<double>(k) * plan.step_duration);
     pose.pose.position = points[k];
     pose.pose.orientation = quaternionOf(headings[k]);
+  }
+  if (isOnRoadmap(plan)) {
+    keepHeading(plan.paths[robot].start, path.poses.front().pose);
+    keepHeading(plan.paths[robot].goal, path.poses.back().pose);
   }
   return path;
 }

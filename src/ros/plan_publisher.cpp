@@ -5,7 +5,9 @@
 
 #include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Path.h>
+#include <visualization_msgs/MarkerArray.h>
 
+#include "split_mapf/ros/disc_goal.h"
 #include "split_mapf/ros/plan_messages.h"
 
 namespace split_mapf {
@@ -16,12 +18,14 @@ PlanPublisher::PlanPublisher(const ros::NodeHandle& node, ros::NodeHandle privat
       publish_paths_(publish_paths),
       plan_(private_node.advertise<MultiRobotPlan>("plan", 1, true)),
       layout_(private_node.advertise<PlanLayout>("layout", 1, true)),
-      grid_(private_node.advertise<nav_msgs::OccupancyGrid>("planning_grid", 1, true)) {}
+      grid_(private_node.advertise<nav_msgs::OccupancyGrid>("planning_grid", 1, true)),
+      roadmap_(private_node.advertise<visualization_msgs::MarkerArray>("roadmap", 1, true)) {}
 
 void PlanPublisher::publish(const MultiRobotPlan& plan, const PlanLayout& layout,
                             const PlanningGrid& grid) {
   const std::lock_guard<std::mutex> lock(mutex_);
   grid_.publish(toMessage(grid, plan.header.stamp));
+  roadmap_.publish(roadmapMarkers(grid, plan.header.stamp));
   layout_.publish(layout);
   plan_.publish(plan);
   if (publish_paths_) publishPaths(plan);

@@ -10,6 +10,7 @@
 
 #include "split_mapf/core/solvability.h"
 #include "split_mapf/ros/plan_check.h"
+#include "split_mapf/ros/plan_messages.h"
 #include "split_mapf/ros/unsolvable_text.h"
 
 namespace split_mapf {
@@ -66,13 +67,19 @@ bool PlanServices::validatePlan(ValidatePlan::Request& request,
     // The request outlives this call, so nothing is to be deleted.
     const std::shared_ptr<const nav_msgs::OccupancyGrid> sent(&request.map, [](const void*) {});
     const Deadline deadline(options_.goal.plan.time_limit_sec, stop_);
-    const PlanningGrid grid =
-        makePlanningGrid(*maps_.choose(sent), options_.goal.occupancy, deadline);
-    response.violations = findViolations(request.plan, grid);
+    const std::shared_ptr<const nav_msgs::OccupancyGrid> map = maps_.choose(sent);
+    if (isOnRoadmap(request.plan)) {
+      const MapGeometry geometry(map->info, map->header.frame_id);
+      ObstacleRaster raster = makeRaster(*map, options_.goal.occupancy, deadline);
+      freeSpecks(raster, options_.goal.ignore_specks);
+      response.violations = findDiscViolations(request.plan, geometry, raster, deadline);
+    } else {
+      const PlanningGrid grid = makePlanningGrid(*map, options_.goal.occupancy, deadline);
+      response.violations = findViolations(request.plan, grid);
+    }
   } catch (const Interrupted&) {
-    response.violations.emplace_back(
-        stop_->requested() ? "not judged: the node is shutting down"
-                           : "not judged: the time limit passed while the map was being read");
+    response.violations.emplace_back(stop_->requested() ? "not judged: the node is shutting down"
+                                                        : "not judged: the time limit passed");
   } catch (const std::exception& error) {
     response.violations.emplace_back(error.what());
   }

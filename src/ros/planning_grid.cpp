@@ -8,6 +8,8 @@
 
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
+#include "split_mapf/roadmap/distance_field.h"
+#include "split_mapf/ros/disc_goal.h"
 #include "split_mapf/ros/orientation.h"
 #include "split_mapf/ros/outcome.h"
 #include "split_mapf/ros/text_limits.h"
@@ -68,6 +70,32 @@ std::string plainFrame(const std::string& frame_id) {
   return frame.empty() ? "map" : frame;
 }
 
+/// Row-major from the top. @throws GoalError for data of another size than announced.
+std::vector<bool> freeCellsOf(const nav_msgs::OccupancyGrid& map, const OccupancyRule& rule,
+                              const Deadline& deadline) {
+  const std::size_t width = map.info.width;
+  const std::size_t height = map.info.height;
+  if (map.data.size() != width * height) {
+    refuse("its data has " + counted(map.data.size(), "cell") + ", but " + std::to_string(width) +
+           "x" + std::to_string(height) + " = " + std::to_string(width * height) +
+           " are announced");
+  }
+  requireRule(rule);
+  std::vector<bool> top_down(map.data.size());
+  for (std::size_t row = 0; row < height; ++row) {
+    deadline.require();
+    const std::int8_t* const from = map.data.data() + (height - 1 - row) * width;
+    auto to = top_down.begin() + static_cast<std::ptrdiff_t>(row * width);
+    for (std::size_t x = 0; x < width; ++x, ++to) *to = isFreeOccupancy(from[x], rule);
+  }
+  return top_down;
+}
+
+std::vector<bool> groundOf(const DiscProblem& problem) {
+  const RoadmapOptions& options = problem.task().roadmap;
+  return freeGround(*problem.task().raster, options.robot_radius_m + options.clearance_m);
+}
+
 }  // namespace
 
 MapGeometry::MapGeometry(const nav_msgs::MapMetaData& info, const std::string& frame_id)
@@ -122,27 +150,29 @@ std::string MapGeometry::describe(Cell cell) const {
   return toString(Cell{cell.x, static_cast<std::int32_t>(info_.height) - 1 - cell.y});
 }
 
+MapFrame frameOf(const MapGeometry& geometry) {
+  const nav_msgs::MapMetaData& info = geometry.info();
+  return {info.origin.position.x, info.origin.position.y, geometry.yaw(),
+          static_cast<double>(info.height) * info.resolution};
+}
+
 PlanningGrid makePlanningGrid(const nav_msgs::OccupancyGrid& map, const OccupancyRule& rule,
                               const Deadline& deadline) {
   MapGeometry geometry(map.info, map.header.frame_id);
-  const std::size_t width = map.info.width;
-  const std::size_t height = map.info.height;
-  if (map.data.size() != width * height) {
-    refuse("its data has " + counted(map.data.size(), "cell") + ", but " + std::to_string(width) +
-           "x" + std::to_string(height) + " = " + std::to_string(width * height) +
-           " are announced");
-  }
-  requireRule(rule);
-  std::vector<bool> top_down(map.data.size());
-  for (std::size_t row = 0; row < height; ++row) {
-    deadline.require();
-    const std::int8_t* const from = map.data.data() + (height - 1 - row) * width;
-    auto to = top_down.begin() + static_cast<std::ptrdiff_t>(row * width);
-    for (std::size_t x = 0; x < width; ++x, ++to) *to = isFreeOccupancy(from[x], rule);
-  }
+  const std::vector<bool> free = freeCellsOf(map, rule, deadline);
   try {
-    return {std::make_shared<const Grid>(map.info.width, map.info.height, top_down, deadline),
+    return {std::make_shared<const Grid>(map.info.width, map.info.height, free, deadline),
             geometry};
+  } catch (const InputError& error) {
+    refuse(error.what());
+  }
+}
+
+ObstacleRaster makeRaster(const nav_msgs::OccupancyGrid& map, const OccupancyRule& rule,
+                          const Deadline& deadline) {
+  const std::vector<bool> free = freeCellsOf(map, rule, deadline);
+  try {
+    return rasterOf(map.info.width, map.info.height, free, map.info.resolution);
   } catch (const InputError& error) {
     refuse(error.what());
   }
@@ -156,10 +186,14 @@ nav_msgs::OccupancyGrid toMessage(const PlanningGrid& grid, const ros::Time& sta
   const std::size_t width = grid.grid->width();
   const std::size_t height = grid.grid->height();
   message.data.resize(width * height);
+  std::vector<bool> ground;
+  if (grid.discs) ground = groundOf(grid.discs->problem);
   for (std::size_t row = 0; row < height; ++row) {
     std::int8_t* const to = message.data.data() + (height - 1 - row) * width;
     for (std::size_t x = 0; x < width; ++x) {
-      to[x] = grid.grid->numbering().isMarked(row * width + x) ? 0 : 100;
+      const std::size_t cell = row * width + x;
+      const bool free = grid.discs ? ground[cell] : grid.grid->numbering().isMarked(cell);
+      to[x] = free ? 0 : 100;
     }
   }
   return message;

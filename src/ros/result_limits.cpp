@@ -12,6 +12,7 @@ namespace {
 constexpr std::uint64_t kLengthField = 4;
 constexpr std::uint64_t kHeader = 4 + 8 + kLengthField;  // sequence, stamp, frame_id
 constexpr std::uint64_t kPose = std::uint64_t{7} * 8;
+constexpr std::uint64_t kSize = 8 + 2 * kPose + 4 + 4 + 8;  // of a robot that has one, or not
 
 std::uint64_t pointsOf(const PlanShape& shape) {
   std::uint64_t sum = 0;
@@ -34,7 +35,7 @@ std::uint64_t serializedPaths(const PlanShape& shape, bool with_poses) {
   const std::uint64_t a_path = with_poses ? header : kHeader;
   std::uint64_t bytes = pointsOf(shape) * a_point;
   for (const std::string& id : shape.ids) {
-    bytes += kLengthField + id.size() + kLengthField + a_path + kLengthField;
+    bytes += kLengthField + id.size() + kLengthField + a_path + kLengthField + kSize;
   }
   return bytes;
 }

@@ -3,11 +3,13 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "split_mapf/core/error.h"
 #include "split_mapf/io/map_file.h"
 #include "split_mapf/io/map_json.h"
 #include "split_mapf/io/movingai.h"
+#include "split_mapf/io/pose_scenario.h"
 #include "tool/command_line.h"
 #include "tool/commands.h"
 #include "tool/files.h"
@@ -65,22 +67,26 @@ class Conversion {
   explicit Conversion(const CommandLine& line) {
     requireSuitable(line);
     const std::optional<std::uint32_t> agents = agentsOf(line);
+    const bool of_poses = line.has("scen") && isPoseScenario(line.text("scen"));
+    if (of_poses) robots_ = readPoseScenario(line.text("scen"), agents);
     if (line.has("size")) {
       size_ = parseSize(line.text("size"));
+      if (of_poses) return;
       scenario_ = readMovingAiScenario(line.text("scen"), size_, agents);
       return;
     }
     map_ = readChosenMap(line);
     const Grid& grid = *map_->grid;
     size_ = {grid.width(), grid.height()};
-    if (line.has("scen")) scenario_ = readMovingAiScenario(line.text("scen"), grid, agents);
+    if (line.has("scen") && !of_poses)
+      scenario_ = readMovingAiScenario(line.text("scen"), grid, agents);
   }
 
   void write(const std::string& output) const {
     if (output == "-") {
-      writeMapJson(std::cout, size_, map_, scenario_);
+      writeMapJson(std::cout, size_, map_, scenario_, robots_);
     } else {
-      writeMapJson(output, size_, map_, scenario_);
+      writeMapJson(output, size_, map_, scenario_, robots_);
     }
   }
 
@@ -88,6 +94,7 @@ class Conversion {
   MapSize size_;
   std::optional<OccupancyMap> map_;
   std::optional<Scenario> scenario_;
+  std::vector<PosedRobot> robots_;  ///< of a scenario of poses
 };
 
 }  // namespace
@@ -97,12 +104,13 @@ ExitCode runConvert(const Call& call) {
                    "Reads a map, and a scenario, as all commands do, and writes them as JSON for\n"
                    "other programs: `width`, `height`, `resolution` [m], `origin` [x, y, yaw],\n"
                    "`occupancy` (base64, a byte a cell from the top left on: 0 to 100, 255 is\n"
-                   "unknown), `starts` and `goals` ([x, y], y from the top).");
+                   "unknown), `starts` and `goals` ([x, y], y from the top), or, of a scenario of\n"
+                   "poses, `robots` (`id`, `start` and `goal` [x, y, yaw], `radius` or null).");
   line.offer("map", "FILE", "MovingAI .map, or map_server .yaml");
   line.offer("size", "WxH",
              "instead of --map: the size of a map that is elsewhere; whether its cells are free is "
              "not asked, and what a map says is null");
-  line.offer("scen", "FILE", "MovingAI .scen");
+  line.offer("scen", "FILE", "MovingAI .scen, or .yaml with poses of robots");
   line.offer("agents", "N", "the scenario's first N rows (all)");
   line.offer("resolution", "M", "side of a cell of a MovingAI .map in metres (1)");
   line.offer("output", "FILE", "write the JSON there; - for standard output (-)");

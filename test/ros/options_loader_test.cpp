@@ -63,6 +63,11 @@ void expectEqual(const GoalOptions& a, const GoalOptions& b) {
   EXPECT_EQ(a.occupancy.unknown_is_free, b.occupancy.unknown_is_free);
   EXPECT_EQ(a.robot_radius_m, b.robot_radius_m);
   EXPECT_EQ(a.cell_size_m, b.cell_size_m);
+  EXPECT_EQ(a.clearance_m, b.clearance_m);
+  EXPECT_EQ(a.snap_distance_m, b.snap_distance_m);
+  EXPECT_EQ(a.passages, b.passages);
+  EXPECT_EQ(a.ignore_specks, b.ignore_specks);
+  EXPECT_EQ(a.robot_speed_mps, b.robot_speed_mps);
   EXPECT_EQ(a.step_duration_sec, b.step_duration_sec);
   EXPECT_EQ(a.fill_poses, b.fill_poses);
 }
@@ -82,6 +87,11 @@ XmlRpcValue unusualParameters() {
   p["threads"] = 3;
   p["robot_radius"] = 0.25;
   p["cell_size"] = 0.5;
+  p["clearance"] = 0.05;
+  p["snap_distance"] = 1.5;
+  p["passages"] = false;
+  p["ignore_specks"] = 2;
+  p["robot_speed"] = 0.75;
   p["unknown_space"] = 2;
   p["occupied_threshold"] = 50;
   p["step_duration"] = 0.2;
@@ -154,6 +164,11 @@ TEST(ServerOptions, ReadEveryParameter) {
   EXPECT_EQ(options.goal.plan.threads, 3U);
   EXPECT_EQ(options.goal.robot_radius_m, 0.25);
   EXPECT_EQ(options.goal.cell_size_m, 0.5);
+  EXPECT_EQ(options.goal.clearance_m, 0.05);
+  EXPECT_EQ(options.goal.snap_distance_m, 1.5);
+  EXPECT_FALSE(options.goal.passages);
+  EXPECT_EQ(options.goal.ignore_specks, 2U);
+  EXPECT_EQ(options.goal.robot_speed_mps, 0.75);
   EXPECT_TRUE(options.goal.occupancy.unknown_is_free);
   EXPECT_EQ(options.goal.occupancy.occupied_threshold, 50);
   EXPECT_EQ(options.goal.step_duration_sec, 0.2);
@@ -190,7 +205,12 @@ TEST(ServerOptions, NameTheParameterThatIsWrong) {
       {"unknown_space", XmlRpcValue(3)},
       {"occupied_threshold", XmlRpcValue(0)},
       {"occupied_threshold", XmlRpcValue(101)},
-      {"step_duration", XmlRpcValue(0)},
+      {"step_duration", XmlRpcValue(-1)},
+      {"clearance", XmlRpcValue(-0.1)},
+      {"snap_distance", XmlRpcValue("near")},
+      {"passages", XmlRpcValue(2)},
+      {"ignore_specks", XmlRpcValue(-1)},
+      {"robot_speed", XmlRpcValue(-1)},
       {"fill_poses", XmlRpcValue(1)},
       {"max_queued_goals", XmlRpcValue(0)},
       {"publish_paths", XmlRpcValue("yes")},
@@ -228,6 +248,11 @@ TEST(MergeOptions, TakesWhatTheGoalSays) {
   asked.threads = 1;
   asked.robot_radius = 0.1;
   asked.cell_size = 1;
+  asked.clearance = 0.02;
+  asked.snap_distance = 2;
+  asked.passages = PlanOptions::PASSAGES_OFF;
+  asked.ignore_specks = 3;
+  asked.robot_speed = 0.5;
   asked.unknown_space = PlanOptions::UNKNOWN_SPACE_BLOCKED;
   asked.occupied_threshold = 99;
   asked.step_duration = 4;
@@ -245,6 +270,11 @@ TEST(MergeOptions, TakesWhatTheGoalSays) {
   EXPECT_EQ(options.plan.threads, 1U);
   EXPECT_EQ(options.robot_radius_m, 0.1);
   EXPECT_EQ(options.cell_size_m, 1);
+  EXPECT_EQ(options.clearance_m, 0.02);
+  EXPECT_EQ(options.snap_distance_m, 2);
+  EXPECT_FALSE(options.passages);
+  EXPECT_EQ(options.ignore_specks, 3U);
+  EXPECT_EQ(options.robot_speed_mps, 0.5);
   EXPECT_FALSE(options.occupancy.unknown_is_free);
   EXPECT_EQ(options.occupancy.occupied_threshold, 99);
   EXPECT_EQ(options.step_duration_sec, 4);
@@ -266,6 +296,21 @@ TEST(MergeOptions, TakesANegativeNumberForZero) {
   EXPECT_EQ(options.plan.suboptimality, 0);
 }
 
+TEST(MergeOptions, ASpeedInTheGoalDerivesTheStep) {
+  PlanOptions asked;
+  asked.robot_speed = 0.5;
+  const GoalOptions derived = mergeOptions(asked, {});
+  EXPECT_EQ(stepDurationOf(derived, 1.2), 2.4);
+  asked.step_duration = 1;
+  EXPECT_THROW(stepDurationOf(mergeOptions(asked, {}), 1.2), OptionError);
+  asked.step_duration = 3;
+  EXPECT_EQ(stepDurationOf(mergeOptions(asked, {}), 1.2), 3);
+  PlanOptions zero;
+  zero.step_duration = -1;
+  EXPECT_EQ(stepDurationOf(mergeOptions(zero, {}), 1.2), 1) << "no speed is known";
+  EXPECT_EQ(stepDurationOf({}, 1.2), 1);
+}
+
 TEST(MergeOptions, KeepsTheServersSolverOptionsToTheServersSolver) {
   const GoalOptions server = readServerOptions(unusualParameters()).goal;
   PlanOptions asked;
@@ -282,7 +327,10 @@ TEST(MergeOptions, RefusesValuesOutOfRange) {
       [](PlanOptions& o) { o.unknown_space = 3; },
       [](PlanOptions& o) { o.occupied_threshold = 101; },
       [](PlanOptions& o) { o.occupied_threshold = -1; },
-      [](PlanOptions& o) { o.step_duration = -1; },
+      [](PlanOptions& o) { o.passages = 3; },
+      [](PlanOptions& o) { o.robot_speed = 1e300; },
+      [&](PlanOptions& o) { o.clearance = nan; },
+      [&](PlanOptions& o) { o.snap_distance = nan; },
       [](PlanOptions& o) { o.step_duration = 1e9; },
       [](PlanOptions& o) { o.step_duration = 1e-300; },
       [](PlanOptions& o) { o.time_limit = 1e300; },
@@ -300,18 +348,6 @@ TEST(MergeOptions, RefusesValuesOutOfRange) {
     bad[i](asked);
     EXPECT_THROW(mergeOptions(asked, GoalOptions()), OptionError) << i;
   }
-}
-
-TEST(RequireMapCells, RefusesWhatIsNotAvailableYet) {
-  GoalOptions options;
-  EXPECT_NO_THROW(requireMapCells(options, 0.05F));
-  options.cell_size_m = 0.05;
-  EXPECT_NO_THROW(requireMapCells(options, 0.05F));
-  options.cell_size_m = 0.1;
-  EXPECT_THROW(requireMapCells(options, 0.05F), OptionError);
-  options.cell_size_m = 0;
-  options.robot_radius_m = 0.01;
-  EXPECT_THROW(requireMapCells(options, 0.05F), OptionError);
 }
 
 }  // namespace

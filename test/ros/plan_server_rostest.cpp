@@ -221,9 +221,13 @@ INSTANTIATE_TEST_SUITE_P(
         BadGoal{"TimeLimit", PlanOutcome::INVALID_OPTION,
                 [](auto& g) { g.options.time_limit = kNan; }, nobody, "time_limit"},
         BadGoal{"RobotRadius", PlanOutcome::INVALID_OPTION,
-                [](auto& g) { g.options.robot_radius = 0.3; }, nobody, "robot_radius 0.3"},
-        BadGoal{"CellSize", PlanOutcome::INVALID_OPTION, [](auto& g) { g.options.cell_size = 2; },
-                nobody, "cell_size 2"},
+                [](auto& g) { g.options.robot_radius = 30; }, nobody, "nowhere on the map"},
+        BadGoal{"CellSize", PlanOutcome::INVALID_OPTION,
+                [](auto& g) { g.options.robot_radius = 0.4, g.options.cell_size = 1; }, nobody,
+                "at least 2 m is needed"},
+        BadGoal{"SnapDistance", PlanOutcome::INVALID_OPTION,
+                [](auto& g) { g.options.robot_radius = 0.3, g.options.snap_distance = 100; },
+                nobody, "ten cell sizes"},
         BadGoal{"UnknownSpace", PlanOutcome::INVALID_OPTION,
                 [](auto& g) { g.options.unknown_space = 9; }, nobody, "unknown_space 9"},
         BadGoal{"Threshold", PlanOutcome::INVALID_OPTION,
@@ -251,7 +255,8 @@ INSTANTIATE_TEST_SUITE_P(
                 [](auto& g) { g.options.fill_poses = true, g.options.step_duration = 1e9; }, nobody,
                 "step_duration 1e+09"},
         BadGoal{"StepDuration", PlanOutcome::INVALID_OPTION,
-                [](auto& g) { g.options.step_duration = -1; }, nobody, "step_duration"}),
+                [](auto& g) { g.options.step_duration = 0.1, g.options.robot_speed = 1; }, nobody,
+                "too short"}),
     [](const auto& info) { return info.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(

@@ -3,9 +3,11 @@
 #include <iosfwd>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "split_mapf/io/map_server.h"
 #include "split_mapf/io/movingai.h"
+#include "split_mapf/io/pose_scenario.h"
 
 namespace split_mapf {
 
@@ -15,14 +17,19 @@ namespace split_mapf {
 ///   resolution     side of a cell [m]
 ///   origin         [x, y, yaw] of the lower left corner in the map frame [m, m, rad]
 ///   occupancy      one byte a cell, row-major from the top, in base64: 0 .. 100 [%], 255 = unknown
-///   starts, goals  [[x, y], ...], y from the top, an entry a robot; null without a scenario
+///   starts, goals  [[x, y], ...], y from the top, an entry a robot; null without a scenario of
+///   cells robots         of a scenario of poses only: [{id, start, goal, radius}, ...], poses [x,
+///   y, yaw]
+///                  in the map frame, radius null where the robot has none of its own
 /// Without a map resolution, origin and occupancy are null.
 /// @param size  the map's. Cost: O(cells + robots).
 void writeMapJson(std::ostream& out, MapSize size, const std::optional<OccupancyMap>& map,
-                  const std::optional<Scenario>& scenario);
+                  const std::optional<Scenario>& scenario,
+                  const std::vector<PosedRobot>& robots = {});
 
 /// The same into a file. @throws InputError when it cannot be written.
 void writeMapJson(const std::string& path, MapSize size, const std::optional<OccupancyMap>& map,
-                  const std::optional<Scenario>& scenario);
+                  const std::optional<Scenario>& scenario,
+                  const std::vector<PosedRobot>& robots = {});
 
 }  // namespace split_mapf

@@ -77,8 +77,9 @@ struct Attachment {
 /// to an obstacle than radius + clearance is left by legs that never come nearer than it is
 /// already.
 /// @param snap_distance_m  greatest length of a leg; 0: one spacing of the lattice.
-/// Deterministic. Cost: about robots^2; where robots are cut off, O(cells) to say where: that part
-/// ends, and says less, when the deadline strikes. Thread-safe.
+/// Deterministic. Cost: about robots^2; where robots are cut off, O(cells) to say where.
+/// Thread-safe.
+/// @throws Interrupted when the deadline struck.
 Attachment attachRobots(const ObstacleRaster& raster, const Roadmap& roadmap,
                         const std::vector<RobotPoses>& robots, double snap_distance_m = 0,
                         const Deadline& deadline = Deadline());

@@ -13,6 +13,7 @@
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/solvability.h"
 #include "split_mapf/pipeline/planner.h"
+#include "split_mapf/ros/disc_goal.h"
 #include "split_mapf/ros/map_source.h"
 #include "split_mapf/ros/options_loader.h"
 #include "split_mapf/ros/outcome.h"
@@ -79,6 +80,7 @@ class GoalPlanner {
   PreparedGoal prepareUntil(const boost::shared_ptr<const PlanPathsGoal>& goal,
                             const GoalOptions& options, const Deadline& deadline,
                             const char*& doing) const;
+  PreparedGoal prepareDiscs(const GoalOptions& options, PlacedDiscs discs) const;
   /// @param points  of the robots' paths. @param least  whether these are lower bounds.
   /// @throws OptionError for a plan that could not be sent, or would outlast ROS time.
   void requireFits(const PreparedGoal& goal, const std::vector<std::uint32_t>& points,

@@ -22,8 +22,8 @@ struct MarkerStyle {
 /// A colour for robot `index`, well apart from those of its neighbours in number.
 std_msgs::ColorRGBA colourOf(std::size_t index);
 
-/// Draws one plan at any time. Robots, goals and trails are one list marker each, with fixed
-/// namespaces and ids; labels have the robot's index as id. Immutable.
+/// Draws one plan at any time, robots that have size true to it. Robots, goals and trails are one
+/// list marker each, with fixed namespaces and ids; labels have the robot's index as id. Immutable.
 class PlanMarkers {
  public:
   /// @throws GoalError (INVALID_MAP) for a grid that is none; InputError for a path that is empty
@@ -46,6 +46,8 @@ class PlanMarkers {
   visualization_msgs::Marker frame(const char* space, int type, const ros::Time& stamp) const;
   geometry_msgs::Point pointAt(const Way& way, double position) const;
   visualization_msgs::Marker robots(double position, const ros::Time& stamp) const;
+  bool areOfSeveralSizes() const;
+  visualization_msgs::Marker discsOfSeveralSizes(double position, const ros::Time& stamp) const;
   visualization_msgs::Marker goals(const ros::Time& stamp) const;
   visualization_msgs::Marker trails(double position, const ros::Time& stamp) const;
   void addTrail(const Way& way, std_msgs::ColorRGBA colour, double position,
@@ -59,6 +61,7 @@ class PlanMarkers {
   double steps_ = 0;
   std::vector<std::string> ids_;
   std::vector<Way> ways_;
+  std::vector<double> radii_;  // of robots that are drawn true to size; else empty
 };
 
 }  // namespace split_mapf

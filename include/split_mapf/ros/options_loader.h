@@ -17,8 +17,13 @@ struct GoalOptions {
   PlanRequest plan;
   OccupancyRule occupancy;
   double robot_radius_m = 0;
-  double cell_size_m = 0;        ///< 0: the smallest that the robots allow
-  double step_duration_sec = 1;  ///< one time step
+  double cell_size_m = 0;  ///< 0: the smallest that the robots allow
+  double clearance_m = 0;
+  double snap_distance_m = 0;  ///< 0: one cell size
+  bool passages = true;
+  std::uint32_t ignore_specks = 0;  ///< [cells]
+  double robot_speed_mps = 0;       ///< 0: unknown
+  double step_duration_sec = 1;     ///< one time step; 0: derived from the speed, or 1
   bool fill_poses = false;
 };
 
@@ -42,8 +47,8 @@ std::vector<std::string> findUnknownParameters(const XmlRpc::XmlRpcValue& parame
 /// @throws OptionError for a value out of range.
 GoalOptions mergeOptions(const PlanOptions& asked, const GoalOptions& defaults);
 
-/// Refuses robots with a radius and planning cells that are not map cells: neither is available
-/// yet. `resolution_m` is the map's. @throws OptionError.
-void requireMapCells(const GoalOptions& options, double resolution_m);
+/// How long a step lasts in which a robot covers `longest_step_m` at most [s].
+/// @throws OptionError where both a speed and a duration are given that is too short for it.
+double stepDurationOf(const GoalOptions& options, double longest_step_m);
 
 }  // namespace split_mapf

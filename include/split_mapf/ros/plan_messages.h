@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include <geometry_msgs/Point.h>
 #include <nav_msgs/Path.h>
 #include <split_mapf/MultiRobotPlan.h>
 #include <split_mapf/PlanStatistics.h>
@@ -20,9 +21,21 @@ MultiRobotPlan toMessage(const PlanReport& report, const std::vector<std::string
 
 PlanStatistics statisticsOf(const PlanReport& report);
 
+/// Whether the plan is one of robots that have size, on a planning graph.
+bool isOnRoadmap(const MultiRobotPlan& plan);
+/// What is wrong with a path's steps of legs; empty when nothing is.
+std::string faultOfLegs(const MultiRobotPlan& plan, const RobotPath& path);
+/// Where a robot is at each step: its cells' centres, and before and behind them, on a planning
+/// graph, its legs from and to its exact poses. @pre the path has cells, they lie in the plan's
+/// grid, and nothing is wrong with its legs.
+std::vector<geometry_msgs::Point> wayOf(const MultiRobotPlan& plan, std::size_t robot,
+                                        const MapGeometry& geometry);
+
 /// One pose a time step, at the cell's centre, stamped plan.header.stamp + k * step_duration. The
 /// heading is that of the motion: of the next move, after the last move of the last one; a robot
-/// that never moves heads along the map's x axis. @pre the path's cells lie in the plan's grid.
+/// that never moves heads along the map's x axis. Robots that have size begin and end with the
+/// headings of their start and goal, where these have one. @pre the path's cells lie in the plan's
+/// grid.
 nav_msgs::Path posesOf(const MultiRobotPlan& plan, std::size_t robot);
 /// Fills RobotPath::path of every robot.
 void fillPoses(MultiRobotPlan& plan);

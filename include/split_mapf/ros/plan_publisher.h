@@ -13,11 +13,13 @@
 
 namespace split_mapf {
 
-/// Publishes the last plan found, the layout of its space split, the grid it was planned on and, if
-/// wanted, a path a robot, all latched. Thread-safe.
+/// Publishes the last plan found, the layout of its space split, the grid it was planned on, the
+/// planning graph of robots that have size and, if wanted, a path a robot, all latched.
+/// Thread-safe.
 class PlanPublisher {
  public:
-  /// `~plan`, `~layout` and `~planning_grid` in `private_node`, `<name>/path` in `node`.
+  /// `~plan`, `~layout`, `~planning_grid` and `~roadmap` in `private_node`, `<name>/path` in
+  /// `node`.
   PlanPublisher(const ros::NodeHandle& node, ros::NodeHandle private_node, bool publish_paths);
 
   /// @pre with publish_paths the robots' ROS names are distinct.
@@ -32,6 +34,7 @@ class PlanPublisher {
   ros::Publisher plan_;
   ros::Publisher layout_;
   ros::Publisher grid_;
+  ros::Publisher roadmap_;
   std::map<std::string, ros::Publisher> paths_;  ///< by the robot's ROS name
 };
 

@@ -12,6 +12,8 @@
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/grid.h"
 #include "split_mapf/io/occupancy.h"
+#include "split_mapf/roadmap/map_frame.h"
+#include "split_mapf/roadmap/obstacle_raster.h"
 
 namespace split_mapf {
 
@@ -52,18 +54,30 @@ class MapGeometry {
   double sin_;
 };
 
+struct DiscPlacement;
+
 /// The grid that is planned on, and where it lies.
 struct PlanningGrid {
   std::shared_ptr<const Grid> grid;
   MapGeometry geometry;
+  /// Of robots that have size, whose grid is a planning graph on the map; else null.
+  std::shared_ptr<const DiscPlacement> discs = nullptr;
 };
+
+/// Where the map lies, for what counts in metres from its first cell.
+MapFrame frameOf(const MapGeometry& geometry);
 
 /// Reads a map: one map cell is one planning cell. @throws GoalError (INVALID_MAP) as MapGeometry,
 /// and for data of another size; OptionError for a bad rule; Interrupted. Cost: O(cells).
 PlanningGrid makePlanningGrid(const nav_msgs::OccupancyGrid& map, const OccupancyRule& rule,
                               const Deadline& deadline = {});
 
-/// The planning grid as a map: 0 = free, 100 = blocked.
+/// The obstacles of a map. @throws as makePlanningGrid().
+ObstacleRaster makeRaster(const nav_msgs::OccupancyGrid& map, const OccupancyRule& rule,
+                          const Deadline& deadline = {});
+
+/// The planning grid as a map: 0 = free, 100 = blocked. Of robots that have size: free is where the
+/// centre of the largest may stand.
 nav_msgs::OccupancyGrid toMessage(const PlanningGrid& grid, const ros::Time& stamp);
 
 }  // namespace split_mapf

@@ -1,0 +1,112 @@
+// Robots that have size, through the action and the services of the real node.
+
+#include <gtest/gtest.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <ros/ros.h>
+#include <ros/topic.h>
+#include <split_mapf/CheckSolvable.h>
+#include <split_mapf/PlanOutcome.h>
+#include <split_mapf/ValidatePlan.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <string>
+#include <vector>
+
+#include "ros/goal_messages.h"
+#include "ros/tracked_goal.h"
+
+namespace split_mapf {
+namespace {
+
+using test::poseAt;
+using test::runGoal;
+using test::taskBetween;
+
+PlanPathsGoal twoRooms(int door) {
+  std::vector<std::string> rows;
+  for (int y = 0; y < 60; ++y) {
+    const bool open = y >= 20 && y < 20 + door;
+    rows.push_back(std::string(60, '.') + (open ? "..." : "###") + std::string(60, '.'));
+  }
+  PlanPathsGoal goal;
+  goal.map = test::mapFromAscii(rows);
+  goal.map.info.resolution = 0.05F;
+  goal.robots = {taskBetween("a", poseAt(0.51, 0.72), poseAt(5.5, 2.22)),
+                 taskBetween("b", poseAt(5.3, 1.13), poseAt(0.9, 1.9))};
+  goal.options.robot_radius = 0.3;
+  return goal;
+}
+
+class DiscsThroughTheNode : public ::testing::Test {
+ protected:
+  void SetUp() override { ASSERT_TRUE(client_.waitForActionServerToStart(ros::Duration(20))); }
+
+  ros::NodeHandle node_;
+  test::PlanActionClient client_{"split_mapf/plan_paths"};
+};
+
+TEST_F(DiscsThroughTheNode, PlansAreSafeAndPublishedWithTheirGraph) {
+  PlanPathsGoal goal = twoRooms(13);
+  goal.options.fill_poses = true;
+  goal.options.robot_speed = 0.5;
+  const PlanPathsResult result = runGoal(client_, goal).result();
+  ASSERT_EQ(result.outcome, PlanOutcome::SUCCEEDED) << result.message;
+  EXPECT_DOUBLE_EQ(result.plan.step_duration, result.plan.longest_step / 0.5);
+  EXPECT_EQ(result.plan.paths[0].path.poses.front().pose.position.x, 0.51);
+  EXPECT_EQ(result.plan.paths[1].path.poses.back().pose.position.y, 1.9);
+
+  ValidatePlan check;
+  check.request.map = goal.map;
+  check.request.plan = result.plan;
+  ASSERT_TRUE(ros::service::call("split_mapf/validate_plan", check));
+  EXPECT_TRUE(check.response.valid) << check.response.violations.front();
+  check.request.plan.clearance = 0.2;
+  ASSERT_TRUE(ros::service::call("split_mapf/validate_plan", check));
+  EXPECT_FALSE(check.response.valid);
+
+  const auto graph = ros::topic::waitForMessage<visualization_msgs::MarkerArray>(
+      "split_mapf/roadmap", node_, ros::Duration(20));
+  ASSERT_TRUE(graph);
+  EXPECT_FALSE(graph->markers[0].points.empty());
+}
+
+TEST_F(DiscsThroughTheNode, ADoorThatIsTooNarrowIsNamed) {
+  const PlanPathsGoal goal = twoRooms(11);
+  const PlanPathsResult result = runGoal(client_, goal).result();
+  EXPECT_EQ(result.outcome, PlanOutcome::UNREACHABLE_GOAL);
+  EXPECT_EQ(result.faults.size(), 2U);
+  EXPECT_NE(result.message.find("0.275 m to an obstacle at (3."), std::string::npos)
+      << result.message;
+  CheckSolvable check;
+  check.request.map = goal.map;
+  check.request.robots = goal.robots;
+  check.request.options = goal.options;
+  ASSERT_TRUE(ros::service::call("split_mapf/check_solvable", check));
+  EXPECT_EQ(check.response.outcome, PlanOutcome::UNREACHABLE_GOAL);
+}
+
+TEST_F(DiscsThroughTheNode, WithoutSizeNothingChanges) {
+  PlanPathsGoal goal = test::smallGoal();
+  const PlanPathsResult plain = runGoal(client_, goal).result();
+  goal.options.cell_size = goal.map.info.resolution;
+  const PlanPathsResult same = runGoal(client_, goal).result();
+  ASSERT_EQ(plain.outcome, PlanOutcome::SUCCEEDED) << plain.message;
+  ASSERT_EQ(same.outcome, PlanOutcome::SUCCEEDED) << same.message;
+  EXPECT_EQ(plain.plan.longest_step, 0);
+  EXPECT_EQ(same.plan.longest_step, 0);
+  for (std::size_t i = 0; i < plain.plan.paths.size(); ++i) {
+    EXPECT_EQ(plain.plan.paths[i].cells, same.plan.paths[i].cells);
+  }
+}
+
+}  // namespace
+}  // namespace split_mapf
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "discs_rostest");
+  ros::AsyncSpinner spinner(2);
+  ros::NodeHandle node;  // keeps ROS started between two tests
+  spinner.start();
+  return RUN_ALL_TESTS();
+}
