@@ -6,14 +6,16 @@
 namespace split_mapf {
 namespace {
 
-std::vector<Visit> visitsOf(const Plan& plan) {
+std::vector<Visit> visitsOf(const Plan& plan, const Deadline& deadline) {
   std::size_t count = 0;
   for (const Path& path : plan.paths) {
+    deadline.require();
     for (std::size_t t = 0; t < path.size(); ++t) count += t == 0 || path[t] != path[t - 1] ? 1 : 0;
   }
   std::vector<Visit> visits;
   visits.reserve(count);
   for (std::uint32_t robot = 0; robot < plan.paths.size(); ++robot) {
+    deadline.require();
     const Path& path = plan.paths[robot];
     for (std::uint32_t t = 0; t < path.size(); ++t) {
       if (t > 0 && path[t] == path[t - 1]) continue;
@@ -32,20 +34,21 @@ VisitId leaderOf(const Precedence& precedence, VisitId event) {
 
 }  // namespace
 
-Precedence::Precedence(const Plan& plan, std::uint32_t vertices)
-    : Precedence(visitsOf(plan), vertices) {}
+Precedence::Precedence(const Plan& plan, std::uint32_t vertices, const Deadline& deadline)
+    : Precedence(visitsOf(plan, deadline), vertices, deadline) {}
 
 Precedence Precedence::fromVisits(std::vector<Visit> visits, std::uint32_t vertices) {
-  return Precedence(std::move(visits), vertices);
+  return Precedence(std::move(visits), vertices, Deadline());
 }
 
-Precedence::Precedence(std::vector<Visit>&& visits, std::uint32_t vertices)
+Precedence::Precedence(std::vector<Visit>&& visits, std::uint32_t vertices,
+                       const Deadline& deadline)
     : vertices_(vertices), visits_(std::move(visits)) {
   for (VisitId v = 0; v < visits_.size(); ++v) {
     if (v == 0 || visits_[v].robot != visits_[v - 1].robot) first_.push_back(v);
   }
   first_.push_back(size());
-  link();
+  link(deadline);
 }
 
 /// By counting: steps are small numbers.
@@ -60,9 +63,11 @@ std::vector<VisitId> Precedence::inPlanOrder() const {
   return order;
 }
 
-void Precedence::link() {
+void Precedence::link(const Deadline& deadline) {
   std::vector<VisitId> latest(vertices_, kNoVisit);
+  SparsePoll poll(deadline);
   for (const VisitId v : inPlanOrder()) {
+    poll();
     VisitId& before = latest[visits_[v].vertex];
     visits_[v].before = before;
     if (before != kNoVisit) visits_[before].after = v;
@@ -97,11 +102,16 @@ namespace {
 /// Gives events their earliest steps in plan order, chains of a step from their leaders on.
 class EarliestSchedule {
  public:
-  EarliestSchedule(const Precedence& precedence, const std::vector<std::uint32_t>& departures)
-      : precedence_(precedence), departures_(departures), steps_(precedence.size(), kOpen) {}
+  EarliestSchedule(const Precedence& precedence, const std::vector<std::uint32_t>& departures,
+                   const Deadline& deadline)
+      : precedence_(precedence),
+        departures_(departures),
+        poll_(deadline),
+        steps_(precedence.size(), kOpen) {}
 
   std::vector<std::uint32_t> run() {
     for (const VisitId event : precedence_.inPlanOrder()) {
+      poll_();
       if (steps_[event] == kOpen) settleChain(event);
     }
     return std::move(steps_);
@@ -144,6 +154,7 @@ class EarliestSchedule {
 
   const Precedence& precedence_;
   const std::vector<std::uint32_t>& departures_;
+  SparsePoll poll_;
   std::vector<std::uint32_t> steps_;
   std::vector<VisitId> chain_;
 };
@@ -151,8 +162,9 @@ class EarliestSchedule {
 }  // namespace
 
 std::vector<std::uint32_t> earliestSteps(const Precedence& precedence,
-                                         const std::vector<std::uint32_t>& departures) {
-  return EarliestSchedule(precedence, departures).run();
+                                         const std::vector<std::uint32_t>& departures,
+                                         const Deadline& deadline) {
+  return EarliestSchedule(precedence, departures, deadline).run();
 }
 
 Plan planOf(const Precedence& precedence, const std::vector<std::uint32_t>& steps) {

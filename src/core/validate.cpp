@@ -83,8 +83,9 @@ std::string robotsNamed(std::uint32_t robot, std::uint32_t other) {
 template <typename Paths>
 class RobotChecks {
  public:
-  RobotChecks(const Instance& instance, const Paths& paths, std::vector<Violation>& violations)
-      : instance_(instance), paths_(paths), violations_(violations) {}
+  RobotChecks(const Instance& instance, const Paths& paths, SparsePoll& poll,
+              std::vector<Violation>& violations)
+      : instance_(instance), paths_(paths), poll_(poll), violations_(violations) {}
 
   void run() {
     if (paths_.count() != instance_.robots()) {
@@ -102,7 +103,10 @@ class RobotChecks {
       return;
     }
     if (robot < instance_.robots()) checkStart(robot);
-    for (std::uint32_t step = 0; step < paths_.length(robot); ++step) checkEntry(robot, step);
+    for (std::uint32_t step = 0; step < paths_.length(robot); ++step) {
+      poll_();
+      checkEntry(robot, step);
+    }
     if (robot < instance_.robots()) checkGoal(robot);
   }
 
@@ -142,6 +146,7 @@ class RobotChecks {
 
   const Instance& instance_;
   const Paths& paths_;
+  SparsePoll& poll_;
   std::vector<Violation>& violations_;
 };
 
@@ -198,9 +203,11 @@ class Occupancy {
 template <typename Paths>
 class PairChecks {
  public:
-  PairChecks(const Grid& grid, const Paths& paths, std::vector<Violation>& violations)
+  PairChecks(const Grid& grid, const Paths& paths, SparsePoll& poll,
+             std::vector<Violation>& violations)
       : grid_(grid),
         paths_(paths),
+        poll_(poll),
         violations_(violations),
         before_(paths.count(), kNoVertex),
         now_(paths.count(), kNoVertex),
@@ -215,6 +222,7 @@ class PairChecks {
     for (std::uint32_t step = 0; step < steps; ++step) {
       advance(step);
       for (std::uint32_t robot = 0; robot < paths_.count(); ++robot) {
+        poll_();
         if (now_[robot] == kNoVertex) continue;
         checkVertex(robot, step);
         if (step > 0) checkSwap(robot, step);
@@ -259,6 +267,7 @@ class PairChecks {
 
   const Grid& grid_;
   const Paths& paths_;
+  SparsePoll& poll_;
   std::vector<Violation>& violations_;
   std::vector<Vertex> before_;  // robot -> position at the step before
   std::vector<Vertex> now_;
@@ -267,22 +276,25 @@ class PairChecks {
 };
 
 template <typename Paths>
-std::vector<Violation> checkAll(const Instance& instance, const Paths& paths) {
+std::vector<Violation> checkAll(const Instance& instance, const Paths& paths,
+                                const Deadline& deadline) {
   std::vector<Violation> violations;
-  RobotChecks<Paths>(instance, paths, violations).run();
-  PairChecks<Paths>(instance.grid(), paths, violations).run();
+  SparsePoll poll(deadline);
+  RobotChecks<Paths>(instance, paths, poll, violations).run();
+  PairChecks<Paths>(instance.grid(), paths, poll, violations).run();
   return violations;
 }
 
 }  // namespace
 
-std::vector<Violation> validate(const Instance& instance, const Plan& plan) {
-  return checkAll(instance, VertexPaths(instance.grid(), plan.paths));
+std::vector<Violation> validate(const Instance& instance, const Plan& plan,
+                                const Deadline& deadline) {
+  return checkAll(instance, VertexPaths(instance.grid(), plan.paths), deadline);
 }
 
 std::vector<Violation> validate(const Instance& instance,
                                 const std::vector<std::vector<Cell>>& paths) {
-  return checkAll(instance, ClaimedPaths(instance.grid(), paths));
+  return checkAll(instance, ClaimedPaths(instance.grid(), paths), Deadline());
 }
 
 }  // namespace split_mapf

@@ -59,6 +59,8 @@ Vertex WayBand::onMap(Vertex v) const { return map_->vertexAt(instance_->grid().
 std::vector<Path> findShortestWays(const Instance& instance, const Deadline& deadline) {
   std::vector<Path> ways;
   for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {
+    // A way of some thousand steps takes the memory of a whole map and asks for time hardly once.
+    deadline.require();
     ways.push_back(
         findShortestWay(instance.grid(), instance.start(robot), instance.goal(robot), deadline));
     if (ways.back().empty()) return {};

@@ -37,6 +37,10 @@ constexpr double kLeastReserveSec = 0.5;
 constexpr std::uint64_t kBudgetWithOthers = 60000;
 // Where a table of steps takes more, none is made unless its solver was asked for.
 constexpr std::uint64_t kMostStepTableMebibytes = 192;
+// And where it takes more than this, not even then: several of them would be kept.
+constexpr std::uint64_t kMostAskedForMebibytes = 2048;
+// A plan that was found in time may be validated so much later.
+constexpr double kFinishSec = 0.2;
 
 }  // namespace
 
@@ -47,6 +51,7 @@ PlanRun::PlanRun(const Instance& instance, CheckedRequest request, const SolverR
       executor_(executor),
       deadline_(deadline),
       solve_deadline_(deadline),
+      finish_deadline_(deadline.remainingSec() + kFinishSec, deadline.stopFlag()),
       log_(listener.progress),
       better_plan_(listener.better_plan),
       solvers_(solvers),
@@ -90,6 +95,7 @@ void PlanRun::runStages() {
   setLowerBounds();
   if (acceptShortestPath()) return;
   choose();
+  if (refuseStepTables()) return;
   std::optional<Plan> plan = planInPieces();
   if (!plan) return;
   log_.enterStage("validate");
@@ -247,6 +253,23 @@ bool PlanRun::stepTablesAreTooLarge() const {
   return stepTableMebibytes() > kMostStepTableMebibytes;
 }
 
+bool PlanRun::refuseStepTables() {
+  const bool is_whole = !request_.split.space && request_.split.time_ratios.size() < 2;
+  if (!is_whole || stepTableMebibytes() <= kMostAskedForMebibytes) return false;
+  if (!keepsStepTable(traits_, request_.solver)) {
+    for (const auto& [name, value] : solvers_.info(request_.solver).lean_values) {
+      request_.solver_options.values[name] = value;
+    }
+    return false;
+  }
+  report_.termination = Termination::kMemoryLimit;
+  report_.message = "a table of steps of " + request_.solver + " would take " +
+                    std::to_string(stepTableMebibytes()) + " MiB, at most " +
+                    std::to_string(kMostAskedForMebibytes) + " are possible";
+  if (!last_resort_.empty()) report_.message += "; solver " + last_resort_ + " keeps none";
+  return true;
+}
+
 void PlanRun::keepTimeForLastResort(double expected_sec) {
   const double left = deadline_.remainingSec();
   if (expected_sec <= 0 || !std::isfinite(left)) return;
@@ -372,7 +395,7 @@ Plan PlanRun::join(const Splitter& splitter, RepairLoop::Outcome& outcome) {
   }
   if (request_.split.options.compaction) {
     log_.enterStage("compact");
-    plan = compact(plan, instance_.graph().size());
+    plan = compactInTime(std::move(plan), instance_.graph().size(), deadline_);
   }
   const bool least = costOf(plan, report_.objective) <= report_.proved_lower_bound;
   const std::uint32_t passes =
@@ -389,7 +412,7 @@ void PlanRun::takeVerdict(const SolveResult& result) {
 }
 
 void PlanRun::accept(Plan plan) {
-  const std::vector<Violation> violations = validate(instance_, plan);
+  const std::vector<Violation> violations = validate(instance_, plan, finish_deadline_);
   if (!violations.empty()) {
     throw std::logic_error("the pipeline made an invalid plan with " +
                            counted(violations.size(), "violation") +

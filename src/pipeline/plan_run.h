@@ -63,6 +63,8 @@ class PlanRun {
   /// @pre the lower bounds are set.
   std::uint64_t stepTableMebibytes() const;
   bool stepTablesAreTooLarge() const;
+  /// True, with the reason in the report, when the solver would keep one that no memory holds.
+  bool refuseStepTables();
   /// Takes note of what somebody has proved for the objective [steps]. @pre there is a plan.
   void raiseBound(std::uint64_t bound, const std::string& by);
   void interrupt();
@@ -73,7 +75,8 @@ class PlanRun {
   CheckedRequest request_;
   Executor& executor_;
   const Deadline& deadline_;
-  Deadline solve_deadline_;  ///< of what `auto` chose: earlier, so that others get a turn
+  Deadline solve_deadline_;         ///< of what `auto` chose: earlier, so that others get a turn
+  const Deadline finish_deadline_;  ///< of what is done to a plan that was found in time
   RunLog log_;
   const BetterPlanCallback& better_plan_;
   std::optional<SolvabilityChecker> checker_;  ///< from stage "check" on

@@ -8,6 +8,7 @@ std::string whileIn(const std::string& stage) {
   if (stage == "distances") return "while distances were being searched";
   if (stage == "choose") return "while a solver was being chosen";
   if (stage == "split") return "while the instance was being split";
+  if (stage == "validate") return "while the plan that was found was being validated";
   return "while a plan was being searched";
 }
 

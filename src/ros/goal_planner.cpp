@@ -16,6 +16,9 @@
 namespace split_mapf {
 namespace {
 
+// More than the limit of a goal, for what is done to a plan that was found within it.
+constexpr double kFinishSec = 0.2;
+
 /// Runs a part of the preparation; an option found wrong there becomes a GoalError.
 template <typename Part>
 auto withGoalErrors(const Part& part) {
@@ -152,27 +155,40 @@ GoalAnswer GoalPlanner::plan(const PreparedGoal& goal, const Deadline& deadline,
     answer.result.message = std::move(proof.message);
     answer.result.faults = std::move(proof.faults);
   }
-  if (report.plan) {
-    PlanMessages messages = messagesOf(goal, report);
-    answer.result.plan = std::move(messages.plan);
-    answer.layout = std::move(messages.layout);
-    if (deadline.stopRequested()) {
-      answer.outcome = Outcome::kCancelled;
-      answer.result.message = "cancelled; " + answer.result.message;
-    }
-  }
+  if (report.plan) writePlan(goal, report, deadline, answer);
   answer.result.outcome = codeOf(answer.outcome);
   return answer;
 }
 
-PlanMessages GoalPlanner::messagesOf(const PreparedGoal& goal, const PlanReport& report) const {
+PlanMessages GoalPlanner::messagesOf(const PreparedGoal& goal, const PlanReport& report,
+                                     const Deadline& deadline) const {
   withGoalErrors([&] { requireFits(goal, pointsOf(goal, *report.plan), false); });
   PlanMessages messages;
   messages.plan = toMessage(report, goal.robots.ids, goal.grid, goal.options.step_duration_sec,
-                            ros::Time::now());
+                            ros::Time::now(), deadline);
   messages.layout = layoutOf(report, goal.grid, messages.plan.header.stamp);
-  if (goal.options.fill_poses) fillPoses(messages.plan);
+  if (goal.options.fill_poses) fillPoses(messages.plan, deadline);
   return messages;
+}
+
+void GoalPlanner::writePlan(const PreparedGoal& goal, const PlanReport& report,
+                            const Deadline& deadline, GoalAnswer& answer) const {
+  std::string ended;
+  try {
+    const Deadline end(deadline.remainingSec() + kFinishSec, deadline.stopFlag());
+    PlanMessages messages = messagesOf(goal, report, end);
+    answer.result.plan = std::move(messages.plan);
+    answer.layout = std::move(messages.layout);
+  } catch (const Interrupted&) {
+    answer.outcome = Outcome::kTimeout;
+    ended = "the time limit passed while a plan was being written into the result; ";
+  }
+  if (deadline.stopRequested()) {
+    answer.outcome = Outcome::kCancelled;
+    ended = ended.empty() ? "cancelled; "
+                          : "cancelled while a plan was being written into the result; ";
+  }
+  answer.result.message = ended + answer.result.message;
 }
 
 std::vector<SolvabilityVerdict> refusalsOf(const PreparedGoal& goal,

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <ros/console.h>
+
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
 #include "split_mapf/ros/markers.h"
@@ -117,12 +119,28 @@ class LayoutPainter {
 
 }  // namespace
 
+namespace {
+
+/// Cells of the map, free or not, have an owner each in every ownership.
+bool isTooLarge(const Layout& layout, const Grid& grid) {
+  const std::uint64_t bytes =
+      sizeof(std::int32_t) * std::uint64_t{grid.width()} * grid.height() * layout.ownerships.size();
+  if (bytes <= kMostLayoutBytes) return false;
+  ROS_WARN(
+      "the layout is left out: the owners of its cells would take %llu bytes, at most %llu "
+      "are published",
+      static_cast<unsigned long long>(bytes), static_cast<unsigned long long>(kMostLayoutBytes));
+  return true;
+}
+
+}  // namespace
+
 PlanLayout layoutOf(const PlanReport& report, const PlanningGrid& grid, const ros::Time& stamp) {
   PlanLayout message;
   message.header.frame_id = grid.geometry.frame();
   message.header.stamp = stamp;
   message.grid = grid.geometry.info();
-  if (!report.layout) return message;
+  if (!report.layout || isTooLarge(*report.layout, *grid.grid)) return message;
   const Layout& layout = *report.layout;
   message.partition = layout.partition;
   message.buffers = indicesOf(bufferVertices(layout), grid);

@@ -81,8 +81,8 @@ std::vector<geometry_msgs::Point> wayOf(const MultiRobotPlan& plan, std::size_t 
 }
 
 MultiRobotPlan toMessage(const PlanReport& report, const std::vector<std::string>& ids,
-                         const PlanningGrid& grid, double step_duration_sec,
-                         const ros::Time& stamp) {
+                         const PlanningGrid& grid, double step_duration_sec, const ros::Time& stamp,
+                         const Deadline& deadline) {
   MultiRobotPlan message;
   message.header.frame_id = grid.geometry.frame();
   message.header.stamp = stamp;
@@ -92,6 +92,7 @@ MultiRobotPlan toMessage(const PlanReport& report, const std::vector<std::string
   message.makespan = report.makespan;
   message.sum_of_costs = report.sum_of_costs;
   message.paths.resize(ids.size());
+  SparsePoll poll(deadline);
   for (std::size_t robot = 0; robot < ids.size(); ++robot) {
     const Path& path = report.plan->paths[robot];
     RobotPath& out = message.paths[robot];
@@ -99,6 +100,7 @@ MultiRobotPlan toMessage(const PlanReport& report, const std::vector<std::string
     out.cells.reserve(path.size());
     const std::size_t arrival = costOf(path);
     for (std::size_t k = 0; k <= arrival; ++k) {
+      poll();
       out.cells.push_back(grid.geometry.indexOf(grid.grid->cellOf(path[k])));
     }
   }
@@ -125,7 +127,9 @@ PlanStatistics statisticsOf(const PlanReport& report) {
   return statistics;
 }
 
-nav_msgs::Path posesOf(const MultiRobotPlan& plan, std::size_t robot) {
+namespace {
+
+nav_msgs::Path posesUntil(const MultiRobotPlan& plan, std::size_t robot, SparsePoll& poll) {
   const MapGeometry geometry(plan.grid, plan.header.frame_id);
   const std::vector<geometry_msgs::Point> points = wayOf(plan, robot, geometry);
   const std::vector<double> headings = headingsOf(points, geometry.yaw());
@@ -133,6 +137,7 @@ nav_msgs::Path posesOf(const MultiRobotPlan& plan, std::size_t robot) {
   path.header = plan.header;
   path.poses.resize(points.size());
   for (std::size_t k = 0; k < points.size(); ++k) {
+    poll();
     geometry_msgs::PoseStamped& pose = path.poses[k];
     pose.header.frame_id = plan.header.frame_id;
     pose.header.stamp =
@@ -147,9 +152,18 @@ nav_msgs::Path posesOf(const MultiRobotPlan& plan, std::size_t robot) {
   return path;
 }
 
-void fillPoses(MultiRobotPlan& plan) {
+}  // namespace
+
+nav_msgs::Path posesOf(const MultiRobotPlan& plan, std::size_t robot) {
+  const Deadline never;
+  SparsePoll poll(never);
+  return posesUntil(plan, robot, poll);
+}
+
+void fillPoses(MultiRobotPlan& plan, const Deadline& deadline) {
+  SparsePoll poll(deadline);
   for (std::size_t robot = 0; robot < plan.paths.size(); ++robot) {
-    plan.paths[robot].path = posesOf(plan, robot);
+    plan.paths[robot].path = posesUntil(plan, robot, poll);
   }
 }
 

@@ -65,6 +65,7 @@ SolverInfo EcbsSolver::info() {
   info.description =
       "enhanced conflict-based search: bounded-suboptimal, complete on solvable instances";
   info.traits = traitsOfEcbs();
+  info.lean_values = {{"polish", "0"}};
   info.options = {
       {"order", defaults.order,
        "robots in the first plan: shortest_first, longest_first, random or given"},

@@ -80,7 +80,7 @@ void polish(const SolveRequest& request, const LacamSettings& settings, SolveRes
   effort.go_on = go_on;
   result.plan = replanSingly(instance, *std::move(result.plan), effort, request.deadline);
   // Who waited for robots that have earlier paths now need not wait any longer.
-  result.plan = compact(*result.plan, instance.graph().size());
+  result.plan = compactInTime(*std::move(result.plan), instance.graph().size(), request.deadline);
 }
 
 void reportFailure(LacamSearch::Outcome outcome, const LacamSettings& settings,
@@ -162,7 +162,7 @@ SolveResult LacamSolver::run(const SolveRequest& request) const {
     return result;
   }
   result.termination = Termination::kSolved;
-  result.plan = compact(search.plan(), instance.graph().size());
+  result.plan = compactInTime(search.plan(), instance.graph().size(), deadline);
   polish(request, *settings_, result);
   certifyByLowerBound(result, settings_->objective, kName);
   return result;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/random.h"
 #include "split_mapf/core/validate.h"
@@ -33,6 +35,39 @@ TEST(Compaction, RobotsThatNeverMoveStay) {
   const Plan plan = compact({{{2}, {0, 0, 1}}}, 3);
   EXPECT_EQ(plan.paths[0], (Path{2}));
   EXPECT_EQ(plan.paths[1], (Path{0, 1}));
+}
+
+// A robot that goes to and fro for 40,000 steps, and one whose path is as long.
+Plan longPlan() {
+  Plan plan;
+  plan.paths.resize(2);
+  for (std::uint32_t t = 0; t <= 40000; ++t) {
+    plan.paths[0].push_back(t % 2);
+    plan.paths[1].push_back(3 + t % 2);
+  }
+  return plan;
+}
+
+Deadline raised() {
+  const auto stop = std::make_shared<StopFlag>();
+  stop->request();
+  return Deadline(-1, stop);
+}
+
+TEST(Compaction, DidNotHearACancel) {
+  EXPECT_THROW(compact(longPlan(), 5, raised()), Interrupted);
+  EXPECT_EQ(compactInTime(longPlan(), 5, raised()).paths, longPlan().paths);
+  EXPECT_EQ(compactInTime({{{0, 0, 1}}}, 2, Deadline()).paths, (std::vector<Path>{{0, 1}}));
+}
+
+TEST(Validate, DidNotHearACancel) {
+  const auto grid = test::gridFromAscii({"....."});
+  const Instance instance = test::instanceOf(grid, longPlan());
+  EXPECT_TRUE(validate(instance, longPlan()).empty());
+  EXPECT_THROW(validate(instance, longPlan(), raised()), Interrupted);
+  // What is short is told all the same: a cancelled goal carries its plan.
+  const Plan plan = {{{0, 1}, {3, 4}}};
+  EXPECT_TRUE(validate(test::instanceOf(grid, plan), plan, raised()).empty());
 }
 
 TEST(Compaction, OnRandomPlansAlwaysValidAndNeverLater) {

@@ -45,6 +45,14 @@ Deadline raised() {
   return Deadline(-1, stop);
 }
 
+// Each way is too short for its search to look at the deadline.
+TEST(WayBand, ManyShortWaysDidNotHearACancel) {
+  const auto grid = openGrid(3);
+  const Instance instance(grid, {{0, 0}, {0, 1}}, {{2, 0}, {2, 1}});
+  EXPECT_EQ(findShortestWays(instance, Deadline()).size(), 2U);
+  EXPECT_THROW(findShortestWays(instance, raised()), Interrupted);
+}
+
 TEST(CellNumbering, TranslatesBothWays) {
   for (const double share : {0.0, 0.0005, 0.02, 0.5, 0.98, 1.0}) {
     const std::vector<bool> marked = randomCells(70001, share, 7);

@@ -53,6 +53,22 @@ TEST(LayoutMessage, HasNoPhasesWithoutASpaceSplit) {
   EXPECT_EQ(markers.front().action, Marker::DELETEALL);
 }
 
+TEST(LayoutMessage, OfAHugeMapHadNoLimit) {
+  nav_msgs::OccupancyGrid map = mapFromAscii({"."});
+  map.info.width = map.info.height = 4097;
+  map.data.assign(std::size_t{4097} * 4097, 100);
+  map.data.front() = 0;
+  const PlanningGrid grid = makePlanningGrid(map, {});
+  PlanReport report;
+  report.layout.emplace();
+  report.layout->ownerships = {{0}};
+  report.layout->phases.push_back({0, {0}});
+  const PlanLayout layout = layoutOf(report, grid, ros::Time(7));
+  EXPECT_TRUE(layout.phases.empty());
+  EXPECT_TRUE(layout.ownerships.empty());
+  EXPECT_EQ(layout.grid.width, 4097U);
+}
+
 TEST(LayoutMarkers, HaveANamespaceForEachPhaseAndPart) {
   const auto markers = layoutMarkers(smallLayout()).markers;
   EXPECT_EQ(markers.front().action, Marker::DELETEALL);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "ros/goal_messages.h"
 #include "split_mapf/core/error.h"
@@ -86,6 +87,28 @@ TEST(Poses, TurnWithTheMap) {
   EXPECT_NEAR(path.poses[0].pose.position.y, 0.5, 1e-9);
   EXPECT_NEAR(yawOf(path.poses[0].pose.orientation), M_PI / 2, 1e-9);
   EXPECT_NEAR(yawOf(posesOf(plan, 1).poses[0].pose.orientation), M_PI / 2, 1e-9);
+}
+
+TEST(PlanMessage, DidNotHearACancel) {
+  const PlanningGrid grid = makePlanningGrid(mapFromAscii({"...", "..."}), {});
+  const auto stop = std::make_shared<StopFlag>();
+  stop->request();
+  const Deadline cancelled(-1, stop);
+  const auto message_of = [&](const PlanReport& report) {
+    return toMessage(report, {"a", "b"}, grid, 0.5, ros::Time(100), cancelled);
+  };
+  // What is short is told all the same: a cancelled goal carries its plan.
+  MultiRobotPlan plan = message_of(smallReport(*grid.grid));
+  fillPoses(plan, cancelled);
+  EXPECT_EQ(plan.paths[0].path.poses.size(), 4U);
+  PlanReport long_report = smallReport(*grid.grid);
+  for (Path& path : long_report.plan->paths) {
+    path.resize(20001, path.front());
+    path.back() = path.front() == 0 ? 1 : 0;
+  }
+  EXPECT_THROW(message_of(long_report), Interrupted);
+  plan.paths[0].cells.assign(20001, 0);
+  EXPECT_THROW(fillPoses(plan, cancelled), Interrupted);
 }
 
 TEST(RosName, IsALegalName) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "split_mapf/core/deadline.h"
 #include "split_mapf/core/plan.h"
 
 namespace split_mapf {
@@ -36,7 +37,8 @@ struct Visit {
 class Precedence {
  public:
   /// @param vertices  size of the graph. @pre the plan is valid. Cost: O(entries of the paths).
-  Precedence(const Plan& plan, std::uint32_t vertices);
+  /// @throws Interrupted when the deadline has expired.
+  Precedence(const Plan& plan, std::uint32_t vertices, const Deadline& deadline = {});
   /// From visits that are known. @param visits  robot by robot in order, with vertex, robot and
   /// step. @pre each robot from 0 on has one; the steps are those of a valid plan.
   static Precedence fromVisits(std::vector<Visit> visits, std::uint32_t vertices);
@@ -65,8 +67,8 @@ class Precedence {
   std::vector<VisitId> inPlanOrder() const;
 
  private:
-  Precedence(std::vector<Visit>&& visits, std::uint32_t vertices);
-  void link();
+  Precedence(std::vector<Visit>&& visits, std::uint32_t vertices, const Deadline& deadline);
+  void link(const Deadline& deadline);
 
   std::uint32_t vertices_;
   std::vector<Visit> visits_;
@@ -83,8 +85,10 @@ std::vector<Ring> findRings(const Precedence& precedence);
 /// step in which it is left; rings move together. Robot i begins no move before step
 /// `departures[i]` (empty: 0 for all), so its first one ends a step later at the soonest.
 /// @return a step for each visit; that of a robot's first one is 0. Cost: O(visits).
+/// @throws Interrupted when the deadline has expired.
 std::vector<std::uint32_t> earliestSteps(const Precedence& precedence,
-                                         const std::vector<std::uint32_t>& departures = {});
+                                         const std::vector<std::uint32_t>& departures = {},
+                                         const Deadline& deadline = {});
 
 /// The plan in which every visit begins at its step. @pre the steps keep all orders; a robot's
 /// first visit begins at 0.

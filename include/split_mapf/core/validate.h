@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"
 
@@ -40,7 +41,10 @@ struct Violation {
 /// all but start and goal. Waiting at the goal behind the arrival is fine.
 /// Thread-safe. Cost: O(robots * makespan) for a plan in which few robots collide, and a few dozen
 /// bytes a robot, whatever the grid.
-std::vector<Violation> validate(const Instance& instance, const Plan& plan);
+/// @param deadline  looked at once in some thousand entries; nothing is known of the plan when it
+/// has expired. @throws Interrupted then.
+std::vector<Violation> validate(const Instance& instance, const Plan& plan,
+                                const Deadline& deadline = {});
 
 /// The same for paths given as cells, which may be blocked or outside the grid: what a file or a
 /// message claims is checked as it stands.

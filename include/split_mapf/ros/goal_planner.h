@@ -73,7 +73,9 @@ class GoalPlanner {
                   const PlanListener& listener) const;
   /// The messages of a plan that begins now. @pre the report has a plan.
   /// @throws GoalError: INVALID_OPTION for more bytes or steps than can be sent.
-  PlanMessages messagesOf(const PreparedGoal& goal, const PlanReport& report) const;
+  /// @throws Interrupted when the deadline has expired; it is looked at once in some thousand cells.
+  PlanMessages messagesOf(const PreparedGoal& goal, const PlanReport& report,
+                          const Deadline& deadline = {}) const;
 
  private:
   /// @param doing  what the deadline would interrupt.
@@ -81,6 +83,10 @@ class GoalPlanner {
                             const GoalOptions& options, const Deadline& deadline,
                             const char*& doing) const;
   PreparedGoal prepareDiscs(const GoalOptions& options, PlacedDiscs discs) const;
+  /// Puts the messages of a plan into the answer, which says so where the deadline has come before
+  /// their end. @pre the report has a plan.
+  void writePlan(const PreparedGoal& goal, const PlanReport& report, const Deadline& deadline,
+                 GoalAnswer& answer) const;
   /// @param points  of the robots' paths. @param least  whether these are lower bounds.
   /// @throws OptionError for a plan that could not be sent, or would outlast ROS time.
   void requireFits(const PreparedGoal& goal, const std::vector<std::uint32_t>& points,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include <split_mapf/PlanLayout.h>
 #include <visualization_msgs/MarkerArray.h>
 
@@ -8,7 +10,11 @@
 
 namespace split_mapf {
 
-/// The layout of a report's space split as a message; one without phases when there was none.
+/// Bytes that the owners of the cells may take in a message.
+constexpr std::uint64_t kMostLayoutBytes = 64ULL << 20U;
+
+/// The layout of a report's space split as a message; one without phases when there was none, or,
+/// with a warning, when its owners would take more than kMostLayoutBytes.
 PlanLayout layoutOf(const PlanReport& report, const PlanningGrid& grid, const ros::Time& stamp);
 
 /// Draws a layout for rviz: for each phase N three list markers in namespaces of their own, `phase

@@ -8,6 +8,7 @@
 #include <split_mapf/MultiRobotPlan.h>
 #include <split_mapf/PlanStatistics.h>
 
+#include "split_mapf/core/deadline.h"
 #include "split_mapf/core/plan_report.h"
 #include "split_mapf/ros/planning_grid.h"
 
@@ -15,9 +16,10 @@ namespace split_mapf {
 
 /// A found plan as a message, without poses. The header carries the grid's frame; the stamp, the
 /// time of step 0, is `stamp`. @pre report.plan is set and has one path an id.
+/// @throws Interrupted when the deadline has expired; it is looked at once in some thousand cells.
 MultiRobotPlan toMessage(const PlanReport& report, const std::vector<std::string>& ids,
-                         const PlanningGrid& grid, double step_duration_sec,
-                         const ros::Time& stamp);
+                         const PlanningGrid& grid, double step_duration_sec, const ros::Time& stamp,
+                         const Deadline& deadline = {});
 
 PlanStatistics statisticsOf(const PlanReport& report);
 
@@ -37,8 +39,9 @@ std::vector<geometry_msgs::Point> wayOf(const MultiRobotPlan& plan, std::size_t 
 /// headings of their start and goal, where these have one. @pre the path's cells lie in the plan's
 /// grid.
 nav_msgs::Path posesOf(const MultiRobotPlan& plan, std::size_t robot);
-/// Fills RobotPath::path of every robot.
-void fillPoses(MultiRobotPlan& plan);
+/// Fills RobotPath::path of every robot. @throws Interrupted when the deadline has expired; it is
+/// looked at once in some thousand poses.
+void fillPoses(MultiRobotPlan& plan, const Deadline& deadline = {});
 
 /// The ROS name of a robot: its id with characters illegal in ROS names turned into `_`, and `r`
 /// in front unless a letter leads. A slash counts as illegal: one robot, one name.
