@@ -254,8 +254,7 @@ bool PlanRun::stepTablesAreTooLarge() const {
 }
 
 bool PlanRun::refuseStepTables() {
-  const bool is_whole = !request_.split.space && request_.split.time_ratios.size() < 2;
-  if (!is_whole || stepTableMebibytes() <= kMostAskedForMebibytes) return false;
+  if (splits() || stepTableMebibytes() <= kMostAskedForMebibytes) return false;
   if (!keepsStepTable(traits_, request_.solver)) {
     for (const auto& [name, value] : solvers_.info(request_.solver).lean_values) {
       request_.solver_options.values[name] = value;
