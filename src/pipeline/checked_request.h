@@ -14,6 +14,9 @@ struct CheckedRequest {
   SolverOptions solver_options;
   SplitRequest split;
   const SplitterInfo* splitter = nullptr;  ///< of the split; null: it makes none
+  /// Nothing is done to the first plan: no refinement, no straightening, no look at what the other
+  /// objective finds.
+  bool first_plan_only = false;
 };
 
 /// Reads a request. @throws UnknownSolverError, SplitSpecError, OptionError.

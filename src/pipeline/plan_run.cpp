@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "pipeline/auto_choice.h"
+#include "pipeline/other_objective.h"
 #include "pipeline/settlement.h"
 #include "pipeline/solver_choice.h"
 #include "pipeline/stage_words.h"
@@ -70,7 +71,7 @@ PlanRun::PlanRun(const Instance& instance, CheckedRequest request, const SolverR
 PlanReport PlanRun::run() {
   try {
     runStages();
-    if (report_.plan && request_.asked.straighten) takeTurnsOut();
+    if (report_.plan && request_.asked.straighten && !request_.first_plan_only) takeTurnsOut();
   } catch (const Interrupted&) {
     if (!report_.plan) interrupt();
   } catch (const std::bad_alloc&) {
@@ -101,6 +102,8 @@ void PlanRun::runStages() {
   log_.enterStage("validate");
   accept(std::move(*plan));
   searchOptimum();
+  if (request_.first_plan_only) return;
+  takeFromOther();
   if (request_.asked.refine_sec > 0) refineWithin(request_.asked.refine_sec);
 }
 
@@ -295,6 +298,19 @@ void PlanRun::searchOptimum() {
       accept(std::move(*result.plan));
     }
   }
+}
+
+void PlanRun::takeFromOther() {
+  const bool wanted = !report_.optimal && isOtherWorthAsking(request_, report_.robots,
+                                                             report_.sum_of_costs_lower_bound);
+  if (!wanted) return;
+  log_.enterStage("other objective");
+  std::optional<Plan> other = planForOther(instance_, request_, solvers_, executor_, deadline_);
+  if (!other || costOf(*other, report_.objective) >= costOf(*report_.plan, report_.objective)) {
+    return;
+  }
+  choice_ += "; what is found for the other objective costs less";
+  accept(std::move(*other));
 }
 
 void PlanRun::raiseBound(std::uint64_t bound, const std::string& by) {

@@ -57,6 +57,8 @@ class PlanRun {
   void judge();
   /// A small knot that `auto` solved is worth a short search for the optimum, or its proof.
   void searchOptimum();
+  /// What `auto` finds for the other objective, where it serves this one better.
+  void takeFromOther();
   void refineWithin(double seconds);
   void takeTurnsOut();
   /// What a table of a bit a cell and step takes, of which most searches keep two or more [MiB].

@@ -73,7 +73,8 @@ class GoalPlanner {
                   const PlanListener& listener) const;
   /// The messages of a plan that begins now. @pre the report has a plan.
   /// @throws GoalError: INVALID_OPTION for more bytes or steps than can be sent.
-  /// @throws Interrupted when the deadline has expired; it is looked at once in some thousand cells.
+  /// @throws Interrupted when the deadline has expired; it is looked at once in some thousand
+  /// cells.
   PlanMessages messagesOf(const PreparedGoal& goal, const PlanReport& report,
                           const Deadline& deadline = {}) const;
 
