@@ -9,22 +9,11 @@ import unittest
 import actionlib
 import rospy
 import rosunit
-from nav_msgs.msg import OccupancyGrid
 
-from ros_processes import (Program, SentGoal, action_client, hard_goal, start_program, wait_until,
-                           warehouse_goal)
+from ros_processes import (Program, SentGoal, action_client, free_map, hard_goal, start_program,
+                           wait_until, warehouse_goal)
 from split_mapf.msg import PlanOutcome, PlanPathsGoal, RobotTask
 from split_mapf.srv import CheckSolvable, CheckSolvableRequest
-
-
-def hall(side):
-    grid = OccupancyGrid()
-    grid.header.frame_id = "map"
-    grid.info.width = grid.info.height = side
-    grid.info.resolution = 1.0
-    grid.info.origin.orientation.w = 1.0
-    grid.data = bytes(side * side)
-    return grid
 
 
 def crossing_robots(side, count):
@@ -39,7 +28,7 @@ def crossing_robots(side, count):
 
 
 def hall_goal(side, count, **options):
-    goal = PlanPathsGoal(map=hall(side), robots=crossing_robots(side, count))
+    goal = PlanPathsGoal(map=free_map(side), robots=crossing_robots(side, count))
     for name, value in options.items():
         setattr(goal.options, name, value)
     return goal
@@ -140,7 +129,7 @@ class BigMaps(unittest.TestCase):
 def call_for_ever():
     """One of many who ask whether a plan exists on a large map."""
     rospy.init_node("caller", anonymous=True)
-    request = CheckSolvableRequest(map=hall(2500), robots=crossing_robots(2500, 50))
+    request = CheckSolvableRequest(map=free_map(2500), robots=crossing_robots(2500, 50))
     check = rospy.ServiceProxy("split_mapf/check_solvable", CheckSolvable)
     while not rospy.is_shutdown():
         print("solvable" if check(request).solvable else "not proved", flush=True)

@@ -129,15 +129,22 @@ def write_files(directory, rows, robots):
     return map_path, scen_path
 
 
+def free_map(width, height=None):
+    """Cells of 1 m, all of them free; a square when there is no height."""
+    grid = OccupancyGrid()
+    grid.header.frame_id = "map"
+    grid.info.width, grid.info.height = width, height or width
+    grid.info.resolution = 1.0
+    grid.info.origin.orientation.w = 1.0
+    grid.data = bytes(grid.info.width * grid.info.height)
+    return grid
+
+
 def warehouse_goal(with_map=True):
     rows = rows_of_map()
     goal = PlanPathsGoal()
     if with_map:
-        goal.map = OccupancyGrid()
-        goal.map.header.frame_id = "map"
-        goal.map.info.width, goal.map.info.height = len(rows[0]), len(rows)
-        goal.map.info.resolution = 1.0
-        goal.map.info.origin.orientation.w = 1.0
+        goal.map = free_map(len(rows[0]), len(rows))
         goal.map.data = [100 if cell == "#" else 0 for row in reversed(rows) for cell in row]
     for index, (start_x, start_y, goal_x, goal_y) in enumerate(robots_of_map()):
         task = RobotTask(robot_id="robot_%d" % index)
@@ -159,12 +166,7 @@ def hard_robots():
 
 def hard_goal():
     """An open square full of robots: nobody finds an optimal plan within minutes."""
-    goal = PlanPathsGoal()
-    goal.map.header.frame_id = "map"
-    goal.map.info.width = goal.map.info.height = HARD_SIDE
-    goal.map.info.resolution = 1.0
-    goal.map.info.origin.orientation.w = 1.0
-    goal.map.data = [0] * HARD_SIDE ** 2
+    goal = PlanPathsGoal(map=free_map(HARD_SIDE))
     for start, end in hard_robots():
         task = RobotTask()
         for pose, (x, y) in ((task.start, start), (task.goal, end)):

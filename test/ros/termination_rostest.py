@@ -10,24 +10,13 @@ import unittest
 
 import rospy
 import rosunit
-from nav_msgs.msg import OccupancyGrid
 
-from ros_processes import hard_goal, start_program, wait_until, warehouse_goal
+from ros_processes import free_map, hard_goal, start_program, wait_until, warehouse_goal
 from split_mapf.msg import PlanPathsActionGoal, PlanPathsGoal
 from split_mapf.srv import CheckSolvable
 
 PATIENCE = 2.0
 LONGEST_WAIT = 2.0
-
-
-def free_map(side):
-    grid = OccupancyGrid()
-    grid.header.frame_id = "map"
-    grid.info.width = grid.info.height = side
-    grid.info.resolution = 1.0
-    grid.info.origin.orientation.w = 1.0
-    grid.data = bytes(side * side)
-    return grid
 
 
 def large_map_goal(side=4000):
