@@ -12,6 +12,7 @@
 
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/validate.h"
+#include "split_mapf/solver/registry.h"
 #include "support/ascii_grid.h"
 #include "support/small_instances.h"
 
@@ -47,6 +48,41 @@ TEST(IlpSolver, SettlesAKnotWhoseTreeDoesNotEnd) {
       EXPECT_EQ(result.certified_by, "ilp/joint");
     }
   }
+}
+
+TEST(IlpSolver, BeginsAtAKnownPlanAndHandsBetterOnesOn) {
+  const Instance instance = test::fiveRobotKnot();
+  // The heuristics find none as dear, and are left out, so that the known plan is where it begins.
+  SolverOptions loose;
+  loose.values = {{"polish", "0"}, {"guidance", "0"}};
+  const Plan known = *builtinSolvers().create("lacam", loose)->solve(instance, Deadline(60)).plan;
+  for (const Objective objective : {Objective::kMakespan, Objective::kSumOfCosts}) {
+    std::vector<std::uint64_t> costs;
+    SolveRequest request(instance, Deadline(120));
+    request.known = &known;
+    request.on_better = [&](const Plan& plan) {
+      EXPECT_TRUE(validate(instance, plan).empty());
+      costs.push_back(costOf(plan, objective));
+    };
+    const SolveResult result = makeSolver(objective, {{"heuristic", "false"}}).solve(request);
+    ASSERT_TRUE(result.plan) << result.message;
+    ASSERT_GE(costs.size(), 2U);
+    EXPECT_EQ(costs.front(), costOf(known, objective));
+    EXPECT_EQ(costs.back(), costOf(*result.plan, objective));
+    for (std::size_t i = 1; i < costs.size(); ++i) EXPECT_LT(costs[i], costs[i - 1]);
+  }
+}
+
+TEST(IlpSolver, AKnownPlanIsTheAnswerWhereItHasNoTimeForABetterOne) {
+  const Instance instance = test::generatedInstance(48, 0.1, 40);
+  const Plan known =
+      *builtinSolvers().create("prioritized", {})->solve(instance, Deadline(60)).plan;
+  SolveRequest request(instance, Deadline(60));
+  request.known = &known;
+  const SolveResult result =
+      makeSolver(Objective::kSumOfCosts, {{"heuristic", "false"}}, 1).solve(request);
+  ASSERT_TRUE(result.plan) << result.message;
+  EXPECT_LE(sumOfCostsOf(*result.plan), sumOfCostsOf(known));
 }
 
 TEST(IlpSolver, LeavesKnotsToItsEngineWhereItIsToldTo) {
