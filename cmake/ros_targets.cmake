@@ -7,21 +7,23 @@ target_link_libraries(split_mapf_ros PUBLIC split_mapf_core ${catkin_LIBRARIES})
 add_dependencies(split_mapf_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
 split_mapf_compile_options(split_mapf_ros)
 
-foreach(node planner_node replay_node)
+foreach(node planner_node replay_node executor_node fake_robots_node)
   add_executable(${node} src/node/${node}.cpp)
   target_link_libraries(${node} PRIVATE split_mapf_ros)
   split_mapf_compile_options(${node})
 endforeach()
 target_sources(planner_node PRIVATE src/node/memory_return.cpp)
 target_link_libraries(planner_node PRIVATE split_mapf_available_solvers)
+target_link_libraries(executor_node PRIVATE split_mapf_available_solvers)
 
-catkin_install_python(PROGRAMS scripts/plan_client.py scripts/start_rviz.py
+catkin_install_python(PROGRAMS scripts/plan_client.py scripts/check_distances.py scripts/fleet_client.py
+  scripts/start_rviz.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(TARGETS split_mapf_core ${SPLIT_MAPF_ILP_LIBRARY} split_mapf_ros
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
-install(TARGETS split_mapf planner_node replay_node
+install(TARGETS split_mapf planner_node replay_node executor_node fake_robots_node
   RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/split_mapf/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
 install(DIRECTORY launch config rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

@@ -60,6 +60,14 @@ std::string toString(Outcome outcome) {
       return "UNPLACEABLE";
     case Outcome::kInvalidPose:
       return "INVALID_POSE";
+    case Outcome::kRobotLost:
+      return "ROBOT_LOST";
+    case Outcome::kRobotBlocked:
+      return "ROBOT_BLOCKED";
+    case Outcome::kUnknownRobot:
+      return "UNKNOWN_ROBOT";
+    case Outcome::kPreempted:
+      return "PREEMPTED";
     case Outcome::kServerBusy:
       return "SERVER_BUSY";
     case Outcome::kInternalError:

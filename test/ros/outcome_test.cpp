@@ -25,8 +25,8 @@ std::map<std::string, int> constantsOfMessage() {
   return constants;
 }
 
-const std::set<int> codes_of_the_interface = {0,  1,  2,  3,  4,  5,  10, 11, 12, 13, 20,
-                                              21, 22, 23, 24, 25, 26, 27, 28, 29, 40, 50};
+const std::set<int> codes_of_the_interface = {0,  1,  2,  3,  4,  5,  10, 11, 12, 13, 20, 21, 22,
+                                              23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 40, 50};
 
 TEST(Outcome, IsTheSameAsTheMessage) {
   const std::map<std::string, int> constants = constantsOfMessage();

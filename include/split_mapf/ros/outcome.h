@@ -34,6 +34,10 @@ enum class Outcome : std::int32_t {
   kTransformFailed = 27,
   kUnplaceable = 28,
   kInvalidPose = 29,
+  kRobotLost = 30,
+  kRobotBlocked = 31,
+  kUnknownRobot = 32,
+  kPreempted = 33,
   kServerBusy = 40,
   kInternalError = 50,
 };

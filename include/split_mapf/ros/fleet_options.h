@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <XmlRpcValue.h>
+
+#include "split_mapf/pipeline/fleet_execution.h"
+#include "split_mapf/ros/options_loader.h"
+
+namespace split_mapf {
+
+/// The executor node's private parameters.
+struct FleetServerOptions {
+  ServerOptions server;            ///< those of the planner node that matter here
+  FleetOptions fleet;              ///< its release is found from the robots' radius for each map
+  double robot_radius_m = 0;       ///< 0: unknown; what suits any robot that fits into a cell
+  std::uint32_t route_ahead = 20;  ///< visits that are sent beyond those released
+  /// Where the execution is kept for the next start; empty: nowhere.
+  std::string execution_file;
+};
+
+/// @param default_file  of the execution. @throws OptionError naming the parameter.
+FleetServerOptions readFleetOptions(const XmlRpc::XmlRpcValue& parameters,
+                                    const std::string& default_file);
+/// Parameters that the executor node does not read.
+std::vector<std::string> findUnknownFleetParameters(const XmlRpc::XmlRpcValue& parameters);
+
+}  // namespace split_mapf

@@ -1,0 +1,72 @@
+#include "split_mapf/ros/fleet_options.h"
+
+#include <algorithm>
+
+#include "split_mapf/core/error.h"
+#include "split_mapf/core/wording.h"
+#include "split_mapf/ros/parameter_reader.h"
+
+namespace split_mapf {
+namespace {
+
+constexpr std::int64_t kMostVisits = 1000;
+
+bool readChoice(ParameterReader& reader, const std::string& name, const char* yes, const char* no,
+                bool chosen) {
+  std::string value = chosen ? yes : no;
+  reader.read(name, value);
+  if (value == yes) return true;
+  if (value == no) return false;
+  throw OptionError("parameter ~" + name + " is " + quote(value) + "; " + yes + " or " + no +
+                    " is expected");
+}
+
+void readAll(ParameterReader& reader, FleetServerOptions& options) {
+  FleetOptions& fleet = options.fleet;
+  fleet.replans = readChoice(reader, "policy", "replan", "graph", fleet.replans);
+  fleet.joint_rings = readChoice(reader, "rings", "joint", "avoid", fleet.joint_rings);
+  reader.read("replan_period", fleet.replan_period_sec);
+  reader.read("turn_time", fleet.turn_sec);
+  reader.read("progress_timeout", fleet.progress_timeout_sec);
+  reader.read("obstacle_time", fleet.obstacle_time_sec);
+  reader.read("straighten", options.server.goal.plan.straighten);
+  fleet.release_ahead = static_cast<std::uint32_t>(
+      reader.readInteger("release_ahead", fleet.release_ahead, {1, kMostVisits}));
+  options.route_ahead = static_cast<std::uint32_t>(
+      reader.readInteger("route_ahead", options.route_ahead, {0, kMostVisits}));
+  reader.read("execution_file", options.execution_file);
+}
+
+}  // namespace
+
+FleetServerOptions readFleetOptions(const XmlRpc::XmlRpcValue& parameters,
+                                    const std::string& default_file) {
+  FleetServerOptions options;
+  options.server = readServerOptions(parameters);
+  options.server.goal.plan.straighten = true;
+  options.execution_file = default_file;
+  ParameterReader reader(parameters);
+  readAll(reader, options);
+  options.robot_radius_m = options.server.goal.robot_radius_m;
+  PlanRequest& plan = options.server.goal.plan;
+  plan.objective = Objective::kSumOfCosts;
+  if (plan.split == "auto") plan.split = "none";
+  requireValid(options.fleet);
+  return options;
+}
+
+std::vector<std::string> findUnknownFleetParameters(const XmlRpc::XmlRpcValue& parameters) {
+  std::vector<std::string> unknown = findUnknownParameters(parameters);
+  FleetServerOptions ignored;
+  ParameterReader reader(parameters);
+  readAll(reader, ignored);
+  const std::vector<std::string> not_of_fleet = reader.unreadNames();
+  const auto is_of_fleet = [&](const std::string& name) {
+    return name == "execute" ||
+           std::find(not_of_fleet.begin(), not_of_fleet.end(), name) == not_of_fleet.end();
+  };
+  unknown.erase(std::remove_if(unknown.begin(), unknown.end(), is_of_fleet), unknown.end());
+  return unknown;
+}
+
+}  // namespace split_mapf

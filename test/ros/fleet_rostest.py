@@ -1,0 +1,236 @@
+#!/usr/bin/env python3
+"""A fleet without hardware carries out a plan: a robot dies, the executor is killed and starts
+again, and progress, goals and services that are wrong have their answers. Positions are checked by
+a script that knows the bag alone."""
+
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import actionlib
+import rosbag
+import roslib.packages
+import rospy
+import rosunit
+from nav_msgs.msg import OccupancyGrid
+
+from ros_processes import Recorder, SentGoal, start_program, wait_until
+from split_mapf.msg import (ExecutePlanAction, ExecutePlanGoal, FleetState, MultiRobotPlan,
+                            PlanOutcome, RobotPath, RobotProgress, RobotState, RobotTask)
+from split_mapf.srv import AddRobot, BlockCells, PauseRobots, RemoveRobot
+
+ROBOTS = 24
+STEP = 0.2
+PATIENCE = 90
+# Twice the radius of the largest robot that fits into the cells.
+APART = 0.70
+
+
+def command():
+    return roslib.packages.find_node("split_mapf", "split_mapf")[0]
+
+
+def run(*arguments):
+    subprocess.run((command(),) + arguments, check=True, stdout=subprocess.DEVNULL)
+
+
+class Fleet(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("fleet_rostest")
+        cls.directory = tempfile.TemporaryDirectory()
+        cls.map_message, cls.plan = cls.make_plan(cls.directory.name)
+        cls.map_topic = rospy.Publisher("map", OccupancyGrid, queue_size=1, latch=True)
+        cls.map_topic.publish(cls.map_message)
+        cls.plan_topic = rospy.Publisher("plan", MultiRobotPlan, queue_size=1, latch=True)
+        cls.plan_topic.publish(cls.plan)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.directory.cleanup()
+
+    @classmethod
+    def make_plan(cls, directory):
+        files = {name: os.path.join(directory, "fleet." + name) for name in ("map", "scen", "plan")}
+        instance = ("--map", files["map"], "--scen", files["scen"])
+        run("generate", "--type", "warehouse", "--width", "28", "--height", "16", "--agents",
+            str(ROBOTS), "--seed", "1", "--output-map", files["map"], "--output-scen",
+            files["scen"])
+        run("plan", *instance, "--objective", "sum_of_costs", "--output", files["plan"])
+        with open(files["map"], encoding="ascii") as file:
+            rows = file.read().split("\nmap\n", 1)[1].split()
+        with open(files["plan"], encoding="ascii") as file:
+            found = json.load(file)
+        grid = OccupancyGrid()
+        grid.header.frame_id = "map"
+        grid.info.width, grid.info.height, grid.info.resolution = len(rows[0]), len(rows), 1.0
+        grid.info.origin.orientation.w = 1.0
+        grid.data = [0 if cell == "." else 100 for row in reversed(rows) for cell in row]
+        plan = MultiRobotPlan(grid=grid.info, step_duration=STEP, makespan=found["makespan"],
+                              sum_of_costs=found["sum_of_costs"], objective="sum_of_costs")
+        plan.header.frame_id = "map"
+        for index, path in enumerate(found["paths"]):
+            plan.paths.append(RobotPath(robot_id="r%d" % index, cells=[
+                (len(rows) - 1 - y) * len(rows[0]) + x for x, y in path]))
+        return grid, plan
+
+    def setUp(self):
+        self.file = os.path.join(self.directory.name, "execution.json")
+        if os.path.exists(self.file):
+            os.remove(self.file)
+        for name in ("/fleet", "/fake_robots"):
+            if rospy.has_param(name):
+                rospy.delete_param(name)
+        self.progress = Recorder("progress", RobotProgress)
+        self.addCleanup(self.progress.close)
+        self.states = Recorder("fleet/state", FleetState)
+        self.addCleanup(self.states.close)
+
+    def start_fleet(self):
+        fleet = start_program("executor_node", "_execution_file:=" + self.file,
+                              "_replan_period:=1.0", "_threads:=1", "_progress_timeout:=5.0")
+        self.addCleanup(fleet.end)
+        self.assertTrue(fleet.wait_for_output("ready:"), fleet.output())
+        return fleet
+
+    def start_robots(self, failures=()):
+        rospy.set_param("/fake_robots/failures", list(failures))
+        robots = start_program("fake_robots_node", "routes:=fleet/routes", "_speed:=%g" % (1 / STEP),
+                               "_rate:=20", "_delay_probability:=0.02", "_min_delay:=5",
+                               "_max_delay:=10", "_delay_step:=%g" % STEP)
+        self.addCleanup(robots.end)
+        return robots
+
+    def send(self, plan=None):
+        client = actionlib.ActionClient("fleet/execute", ExecutePlanAction)
+        self.assertTrue(client.wait_for_server(rospy.Duration(30)))
+        return SentGoal(client, ExecutePlanGoal(plan=plan or self.plan))
+
+    def latest(self):
+        return self.states.messages[-1].robots if self.states.messages else []
+
+    def count(self, state):
+        return sum(robot.state == state for robot in self.latest())
+
+    def assert_kept_apart(self):
+        path = os.path.join(self.directory.name, self.id().rsplit(".", 1)[-1] + ".bag")
+        with rosbag.Bag(path, "w") as bag:
+            for message in self.progress.messages:
+                bag.write("/progress", message, message.pose.header.stamp)
+        script = roslib.packages.find_node("split_mapf", "check_distances.py")[0]
+        check = subprocess.run([sys.executable, script, path, "--distance", str(APART)],
+                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+        self.assertEqual(check.returncode, 0, check.stdout)
+
+    def test_goes_on_without_a_robot_that_dies(self):
+        fleet = self.start_fleet()
+        self.start_robots(["r5:2"])
+        goal = self.send()
+        self.assertTrue(goal.wait_for_end(PATIENCE), fleet.output())
+        result = goal.result()
+        self.assertEqual(result.outcome, PlanOutcome.ROBOT_BLOCKED, result.message)
+        self.assertEqual([fault.robot_id for fault in result.faults], ["r5"])
+        self.assertEqual(self.count(RobotState.ARRIVED), ROBOTS - 1)
+        self.assertGreater(result.duration, result.planned)
+        self.assertFalse(os.path.exists(self.file))
+        self.assert_kept_apart()
+
+    def test_goes_on_when_the_executor_was_killed(self):
+        fleet = self.start_fleet()
+        self.start_robots()
+        self.send()
+        far = ROBOTS // 4
+        self.assertTrue(wait_until(lambda: self.count(RobotState.ARRIVED) >= far, PATIENCE),
+                        fleet.output())
+        self.assertLess(self.count(RobotState.ARRIVED), ROBOTS)
+        fleet.signal(signal.SIGKILL)
+        fleet.wait()
+        self.assertTrue(os.path.exists(self.file))
+        fleet = self.start_fleet()
+        # Who asks for the same again has the execution's end.
+        self.assertTrue(fleet.wait_for_output("taking up again"), fleet.output())
+        goal = self.send()
+        self.assertTrue(goal.wait_for_end(PATIENCE), fleet.output())
+        self.assertEqual(goal.result().outcome, PlanOutcome.SUCCEEDED, goal.result().message)
+        self.assertEqual(self.count(RobotState.ARRIVED), ROBOTS)
+        self.assert_kept_apart()
+
+    def test_answers_what_cannot_be(self):
+        fleet = self.start_fleet()
+        self.start_robots()
+        wrong = MultiRobotPlan()
+        wrong.header, wrong.grid, wrong.step_duration = self.plan.header, self.plan.grid, STEP
+        wrong.paths = [RobotPath(robot_id="ghost", cells=[0])]
+        for plan, outcome, word in (
+                (self.other_map(), PlanOutcome.INVALID_MAP, "grid"),
+                (self.jumping(), PlanOutcome.INVALID_OPTION, "claims"),
+                (wrong, PlanOutcome.UNKNOWN_ROBOT, "ghost"),
+                (self.elsewhere(), PlanOutcome.INVALID_POSE, "begins")):
+            goal = self.send(plan)
+            self.assertTrue(goal.wait_for_end(), fleet.output())
+            self.assertEqual(goal.result().outcome, outcome, goal.result().message)
+            self.assertIn(word, goal.result().message)
+        running = self.send()
+        self.assertTrue(wait_until(lambda: self.count(RobotState.MOVING) > 0), fleet.output())
+        busy = self.send()
+        self.assertTrue(busy.wait_for_end(), fleet.output())
+        self.assertEqual(busy.result().outcome, PlanOutcome.SERVER_BUSY)
+        publisher = rospy.Publisher("progress", RobotProgress, queue_size=10)
+        self.assertTrue(wait_until(lambda: publisher.get_num_connections() >= 2))
+        plan_id = self.states.messages[-1].plan_id
+        publisher.publish(RobotProgress(robot_id="r0", plan_id=plan_id, fraction=math.nan))
+        publisher.publish(RobotProgress(robot_id="r0", plan_id=plan_id, sequence=100000))
+        self.assertTrue(fleet.wait_for_output("progress that cannot be"), fleet.output())
+        self.check_services()
+        running.handle.cancel()
+        self.assertTrue(running.wait_for_end(), fleet.output())
+        self.assertEqual(running.result().outcome, PlanOutcome.CANCELLED)
+        self.assert_kept_apart()
+
+    def check_services(self):
+        def call(name, kind, *arguments):
+            service = "fleet/" + name
+            rospy.wait_for_service(service, 20)
+            return rospy.ServiceProxy(service, kind)(*arguments)
+        self.assertFalse(call("block_cells", BlockCells, [10 ** 6], True).ok)
+        self.assertTrue(call("block_cells", BlockCells, [0], True).ok)
+        self.assertTrue(call("block_cells", BlockCells, [0], False).ok)
+        self.assertFalse(call("pause", PauseRobots, ["ghost"], True).ok)
+        self.assertTrue(call("pause", PauseRobots, [], True).ok)
+        self.assertTrue(wait_until(lambda: self.count(RobotState.MOVING) == 0))
+        self.assertTrue(call("pause", PauseRobots, [], False).ok)
+        self.assertTrue(wait_until(lambda: self.count(RobotState.MOVING) > 0))
+        self.assertFalse(call("remove_robot", RemoveRobot, "ghost").ok)
+        self.assertIn("report", call("add_robot", AddRobot, RobotTask(robot_id="ghost")).message)
+
+    def altered(self):
+        plan = MultiRobotPlan(header=self.plan.header, grid=self.plan.grid, step_duration=STEP)
+        plan.paths = [RobotPath(robot_id=path.robot_id, cells=list(path.cells))
+                      for path in self.plan.paths]
+        plan.makespan, plan.sum_of_costs = self.plan.makespan, self.plan.sum_of_costs
+        return plan
+
+    def other_map(self):
+        plan = self.altered()
+        plan.grid = type(plan.grid)(width=7, height=7, resolution=1.0, origin=plan.grid.origin)
+        return plan
+
+    def jumping(self):
+        plan = self.altered()
+        plan.paths[0].cells = [plan.paths[0].cells[0]] + list(plan.paths[0].cells[2:])
+        return plan
+
+    def elsewhere(self):
+        """Robots 0 and 1 with each other's paths."""
+        plan = self.altered()
+        plan.paths[0].robot_id, plan.paths[1].robot_id = "r1", "r0"
+        return plan
+
+
+if __name__ == "__main__":
+    rosunit.unitrun("split_mapf", "fleet_rostest", Fleet)
