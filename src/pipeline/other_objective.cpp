@@ -29,7 +29,7 @@ std::optional<Plan> planForOther(const Instance& instance, const CheckedRequest&
                                  const Deadline& deadline) {
   PlanRequest asked = request.asked;
   asked.objective = otherThan(asked.objective);
-  CheckedRequest other = check(asked, solvers);
+  CheckedRequest other = check(asked, solvers, SplitterRegistry());  // it does not split
   other.first_plan_only = true;
   const PlanListener nobody;
   PlanReport report =
