@@ -63,7 +63,7 @@ class FleetRun {
     return std::move(answer_);
   }
 
-  FleetAnswer planAnew(const Planner& planner, PlanRequest request) {
+  FleetAnswer planAnew(const Planner& planner, const PlanRequest& request) {
     starts_.insert(starts_.end(), question_.joiners.begin(), question_.joiners.end());
     std::vector<bool> takes_part = question_.takes_part;
     takes_part.resize(starts_.size(), true);

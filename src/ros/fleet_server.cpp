@@ -140,6 +140,11 @@ bool FleetServer::isTheSame(const MultiRobotPlan& plan) const {
 
 FleetServer::Waiting FleetServer::check(const Goal& goal) const {
   const MultiRobotPlan& plan = goal.getGoal()->plan;
+  if (isOnRoadmap(plan)) {
+    throw GoalError(Outcome::kInvalidOption,
+                    "the plan is on a planning graph, for robots that have size; only plans whose "
+                    "moves go to one of four neighbouring cells are executed yet");
+  }
   PlanningGrid grid = makePlanningGrid(*latestMap(maps_), options_.server.goal.occupancy);
   const std::vector<std::string> wrong = findViolations(plan, grid);
   if (!wrong.empty()) {

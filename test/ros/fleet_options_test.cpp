@@ -1,0 +1,65 @@
+#include "split_mapf/ros/fleet_options.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+
+#include "split_mapf/core/error.h"
+
+namespace split_mapf {
+namespace {
+
+XmlRpc::XmlRpcValue parametersOf(const std::string& name, const XmlRpc::XmlRpcValue& value) {
+  XmlRpc::XmlRpcValue parameters;
+  parameters[name] = value;
+  return parameters;
+}
+
+TEST(FleetOptions, HaveTheirDefaults) {
+  const FleetServerOptions options = readFleetOptions(XmlRpc::XmlRpcValue(), "kept.json");
+  EXPECT_TRUE(options.fleet.replans);
+  EXPECT_FALSE(options.fleet.joint_rings);
+  EXPECT_EQ(options.execution_file, "kept.json");
+  EXPECT_EQ(options.server.goal.plan.objective, Objective::kSumOfCosts);
+}
+
+TEST(FleetOptions, AreRead) {
+  XmlRpc::XmlRpcValue parameters = parametersOf("policy", "graph");
+  parameters["rings"] = "joint";
+  parameters["release_ahead"] = 4;
+  parameters["robot_radius"] = 0.25;
+  parameters["execution_file"] = "";
+  const FleetServerOptions options = readFleetOptions(parameters, "kept.json");
+  EXPECT_FALSE(options.fleet.replans);
+  EXPECT_TRUE(options.fleet.joint_rings);
+  EXPECT_EQ(options.fleet.release_ahead, 4U);
+  EXPECT_EQ(options.robot_radius_m, 0.25);
+  EXPECT_EQ(options.execution_file, "");
+}
+
+TEST(FleetOptions, NameWhatIsWrong) {
+  for (const auto& [name, value] : {std::pair<std::string, XmlRpc::XmlRpcValue>("policy", "hope"),
+                                    {"rings", "broken"},
+                                    {"release_ahead", 0},
+                                    {"replan_period", -1.0},
+                                    {"progress_timeout", "soon"}}) {
+    try {
+      readFleetOptions(parametersOf(name, value), "");
+      ADD_FAILURE() << name;
+    } catch (const OptionError& error) {
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(FleetOptions, KnowTheirOwnAndThePlanners) {
+  XmlRpc::XmlRpcValue parameters = parametersOf("policy", "graph");
+  parameters["solver"] = "lacam";
+  EXPECT_TRUE(findUnknownFleetParameters(parameters).empty());
+  parameters["polcy"] = "graph";
+  EXPECT_EQ(findUnknownFleetParameters(parameters), std::vector<std::string>{"polcy"});
+}
+
+}  // namespace
+}  // namespace split_mapf
