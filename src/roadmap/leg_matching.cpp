@@ -1,13 +1,25 @@
 #include "roadmap/leg_matching.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <unordered_map>
 
 namespace split_mapf::roadmap {
 namespace {
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
+// Sums of whole numbers: those of fractions round, and a chain of moves that is shorter by a
+// rounding error than itself would go in circles.
+using Cost = std::int64_t;
+constexpr Cost kFar = std::numeric_limits<Cost>::max() / 4;
+constexpr double kParts = 4096;       // of the square of a cell
+constexpr double kMostSquare = 1e11;  // that a map allows [cells^2]
+
+Cost costOf(double square) {
+  return static_cast<Cost>(std::llround(std::min(square, kMostSquare) * kParts));
+}
+
 constexpr std::uint32_t kNobody = 0xffffffffU;
 
 class Matching {
@@ -22,13 +34,13 @@ class Matching {
 
  private:
   struct Reached {
-    double cost = kFar;
+    Cost cost = kFar;
     std::uint32_t by = kNobody;  // the robot that would move here
   };
 
-  double squareOf(std::uint32_t robot, Vertex vertex) const {
+  Cost costOfLeg(std::uint32_t robot, Vertex vertex) const {
     for (const LegOption& option : options_[robot]) {
-      if (option.vertex == vertex) return option.square;
+      if (option.vertex == vertex) return costOf(option.square);
     }
     return kFar;
   }
@@ -37,25 +49,26 @@ class Matching {
   void augment(std::uint32_t robot) {
     reached_.clear();
     std::vector<std::uint32_t> queue = {robot};
-    std::vector<double> costs(options_.size(), kFar);
+    std::vector<Cost> costs(options_.size(), kFar);
     costs[robot] = 0;
     for (std::size_t i = 0; i < queue.size(); ++i) {
       const std::uint32_t from = queue[i];
       for (const LegOption& option : options_[from]) {
-        const double cost = costs[from] + option.square;
+        if (option.banned) continue;
+        const Cost cost = costs[from] + costOf(option.square);
         Reached& there = reached_[option.vertex];
-        if (option.banned || cost >= there.cost - 1e-12) continue;
+        if (cost >= there.cost) continue;
         there = {cost, from};
         const auto holder = holders_.find(option.vertex);
         if (holder == holders_.end() || holder->second == from) continue;
-        const double moved = cost - squareOf(holder->second, option.vertex);
-        if (moved >= costs[holder->second] - 1e-12) continue;
+        const Cost moved = cost - costOfLeg(holder->second, option.vertex);
+        if (moved >= costs[holder->second]) continue;
         costs[holder->second] = moved;
         queue.push_back(holder->second);
       }
     }
     Vertex end = kNoVertex;
-    double least = kFar;
+    Cost least = kFar;
     for (const auto& [vertex, there] : reached_) {
       if (holders_.count(vertex) != 0 || there.cost > least) continue;
       if (there.cost == least && vertex > end) continue;

@@ -25,7 +25,7 @@ namespace {
 const std::vector<std::string> kMaps = {"aws_warehouse", "cave",           "fetch_lab",  "house",
                                         "ipa_apartment", "nav2_warehouse", "servicesim", "stata",
                                         "warehouse008",  "willow"};
-constexpr double kPatienceSec = 60;
+constexpr double kPatienceSec = 10;
 
 /// One team's answer: empty when it was served.
 struct Answer {

@@ -173,15 +173,18 @@ void StrangeGoals::spoilMap(StrangeGoal& strange) {
 
 void StrangeGoals::spoilOptions(StrangeGoal& strange) {
   PlanOptions& options = strange.goal.options;
-  const std::vector<double*> numbers = {&options.suboptimality, &options.time_limit,
-                                        &options.refine_time,   &options.robot_radius,
-                                        &options.cell_size,     &options.step_duration};
+  const std::vector<double*> numbers = {
+      &options.suboptimality, &options.time_limit,    &options.refine_time,
+      &options.robot_radius,  &options.cell_size,     &options.step_duration,
+      &options.clearance,     &options.snap_distance, &options.robot_speed};
   *pick(numbers) = strangeNumber();
   if (oneIn(3)) *pick(numbers) = strangeNumber();
   if (oneIn(4)) options.seed = 0xffffffffU;
   if (oneIn(4)) options.threads = pick<std::uint32_t>({1, 1000, 0x80000000U, 0xffffffffU});
   if (oneIn(4)) options.unknown_space = static_cast<std::uint8_t>(below(256));
   if (oneIn(4)) options.occupied_threshold = static_cast<std::int8_t>(below(256));
+  if (oneIn(6)) options.passages = static_cast<std::uint8_t>(below(256));
+  if (oneIn(6)) strange.goal.robots.front().radius = strangeNumber();
   options.fill_poses = static_cast<std::uint8_t>(oneIn(3));
 }
 
@@ -279,6 +282,7 @@ void StrangeGoals::drawNoise(StrangeGoal& strange) {
     task = taskBetween("", poseAt(below(width) + 0.5, below(height) + 0.5),
                        poseAt(below(width) + 0.5, below(height) + 0.5));
   }
+  if (oneIn(3)) goal.options.robot_radius = pick<double>({0.1, 0.3, 0.49, 0.8});
   goal.options.refine_time = oneIn(3) ? 0.3 : 0;
   goal.options.objective = oneIn(2) ? "sum_of_costs" : "makespan";
   goal.options.solver = pick<std::string>({"", "ecbs", "ilp", "lacam", "prioritized"});
