@@ -97,7 +97,7 @@ SplitRequest SplitterRegistry::read(const std::string& text,
   request.values = values;
   for (const auto& entry : values) requireKnown(entry.first);
   request.options = readSplitOptions(values, objective);
-  if (has(text)) {
+  if (has(text) && !info(text).makes) {
     request.spec.kind = SplitSpec::Kind::kNamed;
   } else {
     request.spec = parseSplitSpec(text);

@@ -38,7 +38,8 @@ struct SplitterInfo {
   std::string name;
   std::string description;
   std::vector<OptionInfo> options;  ///< its own
-  /// Whether a specification in the paper's notation asks for it; null: only its name does.
+  /// Whether a specification in the paper's notation asks for it, which then alone does; null: its
+  /// name does.
   std::function<bool(const SplitSpec&)> makes;
   /// Looks at its options before any work. @throws OptionError. Null: there is nothing to look at.
   std::function<void(const SplitRequest&)> check;
