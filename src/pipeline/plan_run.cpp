@@ -142,8 +142,15 @@ void PlanRun::refineWithin(double seconds) {
       least_sum = bound;
     }
   };
-  refine(instance_, *report_.plan, options, executor_, deadline_.within(seconds),
-         [this](const Plan& better) { accept(better); });
+  const bool in_turns =
+      isOtherWorthAsking(request_, report_.robots, report_.sum_of_costs_lower_bound);
+  const auto improved = [this](const Plan& better) { accept(better); };
+  const Deadline end = deadline_.within(seconds);
+  if (in_turns) {
+    refineInTurns(instance_, *report_.plan, options, executor_, end, improved);
+  } else {
+    refine(instance_, *report_.plan, options, executor_, end, improved);
+  }
   if (report_.objective == Objective::kSumOfCosts || !report_.optimal) return;
   refined_sum_ = "; its makespan is proved, refinement went on with the sum of costs: " +
                  std::to_string(sum_at_proof_.value_or(report_.sum_of_costs)) + " then, " +
