@@ -22,9 +22,10 @@
 namespace split_mapf {
 namespace {
 
-const std::vector<std::string> kMaps = {"aws_warehouse", "cave",           "fetch_lab",  "house",
-                                        "ipa_apartment", "nav2_warehouse", "servicesim", "stata",
-                                        "warehouse008",  "willow"};
+std::vector<std::string> mapNames() {
+  return {"aws_warehouse",  "cave",       "fetch_lab", "house",        "ipa_apartment",
+          "nav2_warehouse", "servicesim", "stata",     "warehouse008", "willow"};
+}
 constexpr double kPatienceSec = 10;
 
 /// One team's answer: empty when it was served.
@@ -84,7 +85,7 @@ Answer serve(const PoseDraw& draw) {
 TEST(DiscMaps, ServesRandomTeamsOrSaysWhyNot) {
   if (!test::isLongRun()) GTEST_SKIP() << "minutes: in the soak only";
   std::printf("map,radius,robots,seed,left_out,plan_s,why_not\n");
-  for (const std::string& name : kMaps) {
+  for (const std::string& name : mapNames()) {
     const auto file = test::benchmarkFile("map_server/" + name + "/map.yaml");
     if (!file) GTEST_SKIP() << test::benchmarkMissing("map_server/" + name + "/map.yaml");
     const OccupancyMap map = readMapServerMap(*file);

@@ -22,7 +22,8 @@ std::vector<std::vector<LegOption>> drawCrowd(std::uint64_t seed, std::uint32_t 
     const double y = static_cast<double>(drawBelow(engine, 1000000)) / 3000;
     for (Vertex v = 0; v < robots + 1; ++v) {
       const double dx = x - 29.0 * (v % 10);
-      const double dy = y - 29.0 * (v / 10);
+      const Vertex row = v / 10;
+      const double dy = y - 29.0 * row;
       of_robot.push_back({v, dx * dx + dy * dy, false});
     }
   }
