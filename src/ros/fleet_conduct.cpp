@@ -122,13 +122,12 @@ void FleetServer::askLocked(double time) {
   if (!question) return;
   if (replanner_.joinable()) replanner_.join();
   replans_ = true;
-  replanner_ = std::thread([this, epoch = epoch_, question = std::move(*question)]() mutable {
-    replan(std::move(question), epoch);
-  });
+  replanner_ = std::thread(
+      [this, epoch = epoch_, question = std::move(*question)]() { replan(question, epoch); });
 }
 
 /// In a thread of its own.
-void FleetServer::replan(FleetQuestion question, std::uint64_t epoch) {
+void FleetServer::replan(const FleetQuestion& question, std::uint64_t epoch) {
   const ros::WallTime begin = ros::WallTime::now();
   FleetAnswer answer;
   try {

@@ -60,8 +60,8 @@ FleetServer::FleetServer(const ros::NodeHandle& node, const ros::NodeHandle& pri
   timer_ = own.createWallTimer(ros::WallDuration(kTickSec),
                                [this](const ros::WallTimerEvent&) { tick(); });
   server_ = std::make_unique<Server>(
-      own, "execute", [this](Goal goal) { takeGoal(goal); },
-      [this](Goal goal) { takeCancel(goal); }, false);
+      own, "execute", [this](const Goal& goal) { takeGoal(goal); },
+      [this](const Goal& goal) { takeCancel(goal); }, false);
   server_->start();
 }
 
@@ -194,9 +194,9 @@ void FleetServer::beginWhenReady(double now) {
   grid_ = waiting_->grid;
   std::vector<RobotFault> faults = notReady(*waiting_, now);
   if (faults.empty()) {
-    Waiting waiting = std::move(*waiting_);
+    const Waiting waiting = std::move(*waiting_);
     waiting_.reset();
-    begin(std::move(waiting), now);
+    begin(waiting, now);
     return;
   }
   // Who does not report may be about to; who is elsewhere is not.
@@ -214,7 +214,7 @@ void FleetServer::beginWhenReady(double now) {
   waiting_.reset();
 }
 
-void FleetServer::begin(Waiting waiting, double now) {
+void FleetServer::begin(const Waiting& waiting, double now) {
   std::vector<std::string> ids;
   for (const RobotPath& path : waiting.message.paths) ids.push_back(path.robot_id);
   const Plan plan = planOf(waiting.message, waiting.grid);
@@ -263,7 +263,7 @@ void FleetServer::takeUpAgain(double now) {
   }
 }
 
-void FleetServer::takeCancel(Goal goal) {
+void FleetServer::takeCancel(const Goal& goal) {
   const Lock lock(mutex_);
   if (waiting_ && waiting_->goal == goal) {
     ExecutePlanResult result;

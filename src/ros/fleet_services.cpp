@@ -70,15 +70,15 @@ std::string FleetServer::tryToAdd(const RobotTask& task) {
   const bool reports =
       known != known_.end() && now() - known->second.heard <= options_.fleet.progress_timeout_sec;
   if (!reports) return "robot " + quote(task.robot_id) + " does not report";
-  const auto cellOf = [this](const geometry_msgs::PoseStamped& pose) -> std::optional<Cell> {
+  const auto cell_of = [this](const geometry_msgs::PoseStamped& pose) -> std::optional<Cell> {
     const geometry_msgs::Point& at = pose.pose.position;
     if (!std::isfinite(at.x) || !std::isfinite(at.y)) return Cell{-1, -1};
     return placeOf(pose);
   };
   const bool has_start = !task.start.header.frame_id.empty();
-  const std::optional<Cell> start = has_start ? cellOf(task.start) : known->second.place;
+  const std::optional<Cell> start = has_start ? cell_of(task.start) : known->second.place;
   const bool has_goal = !task.goal.header.frame_id.empty();
-  const std::optional<Cell> goal = has_goal ? cellOf(task.goal) : start;
+  const std::optional<Cell> goal = has_goal ? cell_of(task.goal) : start;
   if (!start || !goal) return "it is not known where it is, or where its goal is";
   const Vertex at = grid_->grid->vertexAt(*start);
   const Vertex to = grid_->grid->vertexAt(*goal);

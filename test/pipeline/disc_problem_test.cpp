@@ -104,7 +104,7 @@ TEST(DiscProblem, EveryFaultIsExplainedAtOnce) {
   task.robots[1].start = task.robots[0].start;
   task.robots[3].goal = {-1, 1};
   try {
-    DiscProblem(task, Deadline());
+    const DiscProblem problem(task, Deadline());
     FAIL() << "accepted";
   } catch (const AttachmentError& error) {
     ASSERT_EQ(error.messages().size(), 2U);

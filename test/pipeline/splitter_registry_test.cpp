@@ -22,16 +22,16 @@ std::string faultOf(const SplitterRegistry& splitters, const std::string& split,
 
 TEST(SplitterRegistry, FindsSplittersByTheNotation) {
   const SplitterRegistry& splitters = builtinSplitters();
-  const auto nameOf = [&](const std::string& split) {
+  const auto name_of = [&](const std::string& split) {
     const SplitterInfo* const found =
         splitters.find(splitters.read(split, {}, Objective::kMakespan));
     return found != nullptr ? found->name : "";
   };
-  EXPECT_EQ(nameOf("none"), "");
-  EXPECT_EQ(nameOf("auto"), "");
-  EXPECT_EQ(nameOf("4t"), "time");
-  EXPECT_EQ(nameOf("2x2s"), "space");
-  EXPECT_EQ(nameOf("4s8t"), "space");
+  EXPECT_EQ(name_of("none"), "");
+  EXPECT_EQ(name_of("auto"), "");
+  EXPECT_EQ(name_of("4t"), "time");
+  EXPECT_EQ(name_of("2x2s"), "space");
+  EXPECT_EQ(name_of("4s8t"), "space");
   // Those of the notation have to be told how many pieces: by name they would know nothing of it.
   for (const char* name : {"quarters", "time", "space"}) {
     EXPECT_THROW(splitters.read(name, {}, Objective::kMakespan), SplitSpecError) << name;
@@ -88,7 +88,7 @@ SplitterInfo oddAndEven() {
   info.check = [](const SplitRequest& request) {
     if (request.values.count("twice") > 0) throw OptionError("twice is too often");
   };
-  info.make = [](const SplitRequest&, SplitQuestion question) {
+  info.make = [](const SplitRequest&, const SplitQuestion& question) {
     return std::make_unique<OddAndEven>(question.instance);
   };
   return info;

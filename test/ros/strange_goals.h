@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <random>
@@ -28,7 +29,7 @@ class StrangeGoals {
  private:
   using Random = std::mt19937_64;
 
-  std::uint64_t below(std::uint64_t n) { return random_() % n; }
+  std::uint64_t below(std::uint64_t n) { return random_() % std::max<std::uint64_t>(n, 1); }
   bool oneIn(std::uint64_t n) { return below(n) == 0; }
   template <typename T>
   T pick(const std::vector<T>& choices) {

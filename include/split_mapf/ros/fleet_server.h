@@ -89,12 +89,12 @@ class FleetServer {
 
   // The action.
   void takeGoal(Goal goal);
-  void takeCancel(Goal goal);
+  void takeCancel(const Goal& goal);
   Waiting check(const Goal& goal) const;
   bool isTheSame(const MultiRobotPlan& plan) const;
   void beginWhenReady(double now);
   std::vector<RobotFault> notReady(const Waiting& waiting, double now) const;
-  void begin(Waiting waiting, double now);
+  void begin(const Waiting& waiting, double now);
   void takeUpAgain(double now);
   void endWhenFinished(double now);
   void end(const ExecutePlanResult& result);
@@ -116,7 +116,7 @@ class FleetServer {
   // As time goes by.
   void tick();
   void askLocked(double now);
-  void replan(FleetQuestion question, std::uint64_t epoch);
+  void replan(const FleetQuestion& question, std::uint64_t epoch);
   void keepLocked(double now);
   void publishRoutes(double now);
   void publishState(double now);
