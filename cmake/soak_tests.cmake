@@ -18,7 +18,6 @@ endif()
 if(TARGET pipeline_tests)
   split_mapf_add_soak(reservations pipeline_tests --gtest_filter=Reservations.AreKeptByEvery*)
   split_mapf_add_soak(fleet pipeline_tests --gtest_filter=FleetExecution.*)
-  split_mapf_add_soak(disc_maps pipeline_tests --gtest_filter=DiscMaps.*)
 endif()
 # Without ilp: a few of so many instances keep it busy for minutes.
 if(TARGET conformance_tests)

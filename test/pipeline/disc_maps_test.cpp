@@ -83,7 +83,7 @@ Answer serve(const PoseDraw& draw) {
 }
 
 TEST(DiscMaps, ServesRandomTeamsOrSaysWhyNot) {
-  if (!test::isLongRun()) GTEST_SKIP() << "minutes: in the soak only";
+  if (!test::isLongRun()) GTEST_SKIP() << "minutes: only with SPLIT_MAPF_LONG=1";
   std::printf("map,radius,robots,seed,left_out,plan_s,why_not\n");
   for (const std::string& name : mapNames()) {
     const auto file = test::benchmarkFile("map_server/" + name + "/map.yaml");
