@@ -1,12 +1,10 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 
 #include "pipeline/checked_request.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/pipeline/executor.h"
-#include "split_mapf/pipeline/refine.h"
 
 namespace split_mapf {
 
@@ -23,12 +21,5 @@ bool isOtherWorthAsking(const CheckedRequest& request, std::uint32_t robots,
 std::optional<Plan> planForOther(const Instance& instance, const CheckedRequest& request,
                                  const SolverRegistry& solvers, Executor& executor,
                                  const Deadline& deadline);
-
-/// refine() for the objective asked for, then for the other one, from whose plans it takes those
-/// that serve the first one better, then for the first one again; only the first turn where it ends
-/// with a proof. @pre the deadline has a limit of time.
-void refineInTurns(const Instance& instance, const Plan& plan, const RefineOptions& options,
-                   Executor& executor, const Deadline& deadline,
-                   const std::function<void(const Plan&)>& improved);
 
 }  // namespace split_mapf

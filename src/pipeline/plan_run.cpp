@@ -8,7 +8,9 @@
 
 #include "pipeline/auto_choice.h"
 #include "pipeline/other_objective.h"
+#include "pipeline/refine_in_turns.h"
 #include "pipeline/settlement.h"
+#include "pipeline/solved_text.h"
 #include "pipeline/solver_choice.h"
 #include "pipeline/stage_words.h"
 #include "pipeline/unsolved_text.h"
@@ -142,12 +144,14 @@ void PlanRun::refineWithin(double seconds) {
       least_sum = bound;
     }
   };
-  const bool in_turns =
-      isOtherWorthAsking(request_, report_.robots, report_.sum_of_costs_lower_bound);
+  const bool in_turns = !report_.optimal && isOtherWorthAsking(request_, report_.robots,
+                                                               report_.sum_of_costs_lower_bound);
   const auto improved = [this](const Plan& better) { accept(better); };
   const Deadline end = deadline_.within(seconds);
   if (in_turns) {
-    refineInTurns(instance_, *report_.plan, options, executor_, end, improved);
+    std::vector<Plan> plans = {*report_.plan};
+    if (for_other_) plans.push_back(std::move(*for_other_));
+    refineInTurns(instance_, plans, options, executor_, end, improved);
   } else {
     refine(instance_, *report_.plan, options, executor_, end, improved);
   }
@@ -313,11 +317,13 @@ void PlanRun::takeFromOther() {
   if (!wanted) return;
   log_.enterStage("other objective");
   std::optional<Plan> other = planForOther(instance_, request_, solvers_, executor_, deadline_);
-  if (!other || costOf(*other, report_.objective) >= costOf(*report_.plan, report_.objective)) {
-    return;
-  }
+  if (!other) return;
+  for_other_ = std::move(other);
+  const auto cost = [this](const Plan& plan) { return costOf(plan, report_.objective); };
+  if (cost(*for_other_) >= cost(*report_.plan)) return;
   choice_ += "; what is found for the other objective costs less";
-  accept(std::move(*other));
+  Plan better = std::exchange(*for_other_, *report_.plan);
+  accept(std::move(better));
 }
 
 void PlanRun::raiseBound(std::uint64_t bound, const std::string& by) {
@@ -376,19 +382,10 @@ bool PlanRun::callAnother(const RepairLoop::Outcome& outcome) {
   const bool failed = late || outcome.last.termination == Termination::kNoPlanFound;
   if (!outcome.plans.empty() || !failed) return false;
   if (!others_) {
-    others_ = piece_solver_.otherSolvers();
-    std::reverse(others_->begin(), others_->end());
-    // It ends with a plan or a proof, which the others would leave open, and in time.
-    const auto is_other = [this](const std::string& name) { return name != last_resort_; };
-    const auto last_resort = std::stable_partition(others_->begin(), others_->end(), is_other);
-    if (late) others_->erase(others_->begin(), last_resort);
-    if (stepTablesAreTooLarge()) {
-      const auto keeps_tables = [this](const std::string& name) {
-        return keepsStepTable(traits_, name);
-      };
-      others_->erase(std::remove_if(others_->begin(), others_->end(), keeps_tables),
-                     others_->end());
-    }
+    Others others{piece_solver_.otherSolvers(), last_resort_};
+    others.is_late = late;
+    others.without_tables = stepTablesAreTooLarge();
+    others_ = lastCalledFirst(traits_, std::move(others));
     solve_deadline_ = deadline_;
   }
   if (others_->empty()) return false;
@@ -461,15 +458,7 @@ void PlanRun::judge() {
   report_.optimal = cost <= report_.proved_lower_bound;
   if (report_.optimal && !sum_at_proof_) sum_at_proof_ = report_.sum_of_costs;
   if (report_.optimal && report_.certified_by.empty()) report_.certified_by = "shortest_paths";
-  report_.message = "solved by " + request_.solver;
-  if (report_.subproblems.size() > 1) {
-    report_.message += " in " + std::to_string(report_.subproblems.size()) + " pieces";
-  }
-  const auto helped = std::count_if(
-      report_.subproblems.begin(), report_.subproblems.end(), [this](const SubproblemReport& row) {
-        return row.solver != request_.solver && row.status == toString(Termination::kSolved);
-      });
-  if (helped > 0) report_.message += ", " + std::to_string(helped) + " of them by other solvers";
+  report_.message = solvedBy(request_.solver, report_.subproblems);
   if (!solver_said_.empty()) report_.message += "; " + solver_said_;
   report_.message += choice_ + refined_sum_;
 }

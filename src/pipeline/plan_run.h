@@ -93,6 +93,7 @@ class PlanRun {
   std::optional<std::vector<std::string>> others_;  ///< that `auto` can still call, last first
   std::string choice_;                              ///< why, for people
   std::optional<std::uint64_t> sum_at_proof_;       ///< when the plan was proved optimal
+  std::optional<Plan> for_other_;                   ///< the worse of two first plans
   std::string refined_sum_;                         ///< what became of it, for people
   PlanReport report_;
 };

@@ -39,6 +39,19 @@ std::string lastResort(const SolverTable& solvers, Objective objective) {
   return "";
 }
 
+std::vector<std::string> lastCalledFirst(const SolverTable& solvers, Others others) {
+  std::vector<std::string>& names = others.names;
+  std::reverse(names.begin(), names.end());
+  const auto is_other = [&](const std::string& name) { return name != others.last_resort; };
+  const auto last_resort = std::stable_partition(names.begin(), names.end(), is_other);
+  if (others.is_late) names.erase(names.begin(), last_resort);
+  if (others.without_tables) {
+    const auto keeps = [&](const std::string& name) { return keepsStepTable(solvers, name); };
+    names.erase(std::remove_if(names.begin(), names.end(), keeps), names.end());
+  }
+  return std::move(others.names);
+}
+
 std::vector<std::string> windowSolvers(const SolverTable& solvers) {
   return namesWhere(solvers, [](const SolverTraits& traits) {
     return traits.optimal_at_one && traits.makespan && !traits.small_groups_only;

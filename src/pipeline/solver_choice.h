@@ -15,6 +15,16 @@ std::vector<std::string> fallbacks(const SolverTable& solvers, Objective objecti
 /// The one of these that is called when the time is nearly over: the first that is complete. Empty:
 /// there is none.
 std::string lastResort(const SolverTable& solvers, Objective objective);
+/// Who may be called when what `auto` chose came to nothing.
+struct Others {
+  std::vector<std::string> names;  ///< the first to be called first
+  std::string last_resort;         ///< it ends with a plan or a proof
+  bool is_late = false;            ///< there is time for the last resort only
+  bool without_tables = false;     ///< there is no memory for tables of a bit a cell and step
+};
+/// Them, who is called first at the end. That is the last resort: it ends with a plan or a proof,
+/// which the others would leave open, and in time.
+std::vector<std::string> lastCalledFirst(const SolverTable& solvers, Others others);
 /// Those that solve windows of a plan anew for less makespan, whatever the number of robots.
 std::vector<std::string> windowSolvers(const SolverTable& solvers);
 /// Those worth a short search for the optimum, or its proof, where few robots are in each other's
