@@ -219,8 +219,7 @@ TEST(FleetExecution, NamesGoalsThatCannotBeReached) {
 }
 
 TEST(FleetExecution, LetsRobotsGoAndJoin) {
-  Small small({"....", "...."}, {{0, 1, 2, 3}, {2}});
-  // Without r1 the plan of r0 may be carried out: it would have had to wait for ever.
+  Small small({"....", "...."}, {{0, 1, 2, 3}, {6}});
   small.fleet->remove(1);
   EXPECT_EQ(small.fleet->robots(), 1U);
   EXPECT_NE(small.fleet->add("r0", 6, 7), "");
