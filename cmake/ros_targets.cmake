@@ -1,4 +1,4 @@
-# The ROS side: conversions and servers as a library, two nodes, installation.
+# The ROS side: conversions and servers as a library, the nodes, installation.
 file(GLOB SPLIT_MAPF_ROS_SOURCES CONFIGURE_DEPENDS src/ros/*.cpp)
 add_library(split_mapf_ros ${SPLIT_MAPF_ROS_SOURCES})
 #catkin_lint: ignore_once external_interface_path
@@ -8,7 +8,8 @@ add_dependencies(split_mapf_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXP
 split_mapf_compile_options(split_mapf_ros)
 
 foreach(node planner_node replay_node executor_node fake_robots_node)
-  add_executable(${node} src/node/${node}.cpp)
+  add_executable(${node} src/node/${node}.cpp src/node/run_node.cpp)
+  target_include_directories(${node} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
   target_link_libraries(${node} PRIVATE split_mapf_ros)
   split_mapf_compile_options(${node})
 endforeach()

@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <exception>
 #include <string>
 #include <thread>
 
 #include <ros/ros.h>
 
+#include "node/run_node.h"
 #include "solver/available/available_solvers.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/pipeline/executor.h"
 #include "split_mapf/pipeline/planner.h"
-#include "split_mapf/ros/end_signal.h"
 #include "split_mapf/ros/fleet_diagnostics.h"
 #include "split_mapf/ros/fleet_server.h"
 #include "split_mapf/ros/map_source.h"
@@ -22,8 +21,6 @@ namespace {
 
 // One for reports, one for all else.
 constexpr std::uint32_t kCallbackThreads = 2;
-// Time for the last results to leave the node.
-constexpr double kFlushSec = 0.1;
 
 /// Beside ROS's logs, named after the node.
 std::string defaultFile() {
@@ -36,15 +33,10 @@ std::string defaultFile() {
   return folder + "/" + name + "_execution.json";
 }
 
-void run() {
-  ros::NodeHandle node;
-  ros::NodeHandle private_node("~");
-  split_mapf::installEndSignal();
-  XmlRpc::XmlRpcValue parameters;
-  ros::param::get(private_node.getNamespace(), parameters);
+void run(split_mapf::NodeContext& context) {
   const split_mapf::FleetServerOptions options =
-      split_mapf::readFleetOptions(parameters, defaultFile());
-  for (const std::string& name : split_mapf::findUnknownFleetParameters(parameters)) {
+      split_mapf::readFleetOptions(context.parameters, defaultFile());
+  for (const std::string& name : split_mapf::findUnknownFleetParameters(context.parameters)) {
     ROS_WARN("parameter ~%s is not one of this node", name.c_str());
   }
   const std::uint32_t asked = options.server.goal.plan.threads;
@@ -52,33 +44,17 @@ void run() {
                                            : std::max(1U, std::thread::hardware_concurrency()));
   const split_mapf::Planner planner(split_mapf::availableSolvers(), executor);
   planner.requireValid(options.server.goal.plan);
-  const split_mapf::MapSource maps(node, options.server.map_file);
+  const split_mapf::MapSource maps(context.node, options.server.map_file);
   const split_mapf::PoseTransformer transformer;
-  split_mapf::FleetServer server(node, private_node, options, maps, planner, transformer);
-  const split_mapf::FleetDiagnostics diagnostics(node, private_node, server);
+  split_mapf::FleetServer server(context.node, context.private_node, options, maps, planner,
+                                 transformer);
+  const split_mapf::FleetDiagnostics diagnostics(context.node, context.private_node, server);
 
-  ros::AsyncSpinner spinner(kCallbackThreads);
-  spinner.start();
-  ROS_INFO("ready: action %s", private_node.resolveName("execute").c_str());
-  split_mapf::waitForEndSignal();
-  server.shutdown();
-  ros::WallDuration(kFlushSec).sleep();
-  spinner.stop();
+  split_mapf::serve(kCallbackThreads,
+                    "ready: action " + context.private_node.resolveName("execute"),
+                    [&server] { server.shutdown(); });
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "fleet", ros::init_options::NoSigintHandler);
-  // Keeps ROS, and with it the log, alive until an error has been told.
-  const ros::NodeHandle node;
-  try {
-    run();
-  } catch (const std::exception& error) {
-    ROS_FATAL("%s", error.what());
-    ros::shutdown();
-    return 1;
-  }
-  ros::shutdown();
-  return 0;
-}
+int main(int argc, char** argv) { return split_mapf::runNode(argc, argv, "fleet", run); }

@@ -1,18 +1,17 @@
 // The planner node: wiring only.
 
 #include <algorithm>
-#include <exception>
 #include <string>
 #include <thread>
 
 #include <ros/ros.h>
 
 #include "node/memory_return.h"
+#include "node/run_node.h"
 #include "solver/available/available_solvers.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/pipeline/executor.h"
 #include "split_mapf/pipeline/planner.h"
-#include "split_mapf/ros/end_signal.h"
 #include "split_mapf/ros/goal_planner.h"
 #include "split_mapf/ros/map_source.h"
 #include "split_mapf/ros/options_loader.h"
@@ -30,27 +29,15 @@ constexpr std::uint32_t kCallbackThreads = 4;
 constexpr std::uint32_t kServiceThreads = 2;
 // Of the allocator: enough for the threads of a goal or two that allocate at the same time.
 constexpr std::uint32_t kArenas = 4;
-// Time for the last results to leave the node.
-constexpr double kFlushSec = 0.1;
-
-XmlRpc::XmlRpcValue readParameters(const ros::NodeHandle& private_node) {
-  XmlRpc::XmlRpcValue parameters;
-  ros::param::get(private_node.getNamespace(), parameters);
-  return parameters;
-}
 
 std::uint32_t workersFor(const split_mapf::ServerOptions& options) {
   if (options.goal.plan.threads != 0) return options.goal.plan.threads;
   return std::max(1U, std::thread::hardware_concurrency());
 }
 
-void run() {
-  ros::NodeHandle node;
-  ros::NodeHandle private_node("~");
-  split_mapf::installEndSignal();
-  const XmlRpc::XmlRpcValue parameters = readParameters(private_node);
-  const split_mapf::ServerOptions options = split_mapf::readServerOptions(parameters);
-  for (const std::string& name : split_mapf::findUnknownParameters(parameters)) {
+void run(split_mapf::NodeContext& context) {
+  const split_mapf::ServerOptions options = split_mapf::readServerOptions(context.parameters);
+  for (const std::string& name : split_mapf::findUnknownParameters(context.parameters)) {
     ROS_WARN("parameter ~%s is not one of this node", name.c_str());
   }
 
@@ -60,42 +47,31 @@ void run() {
   const split_mapf::Planner planner(solvers, executor);
   planner.requireValid(options.goal.plan);
 
-  const split_mapf::MapSource maps(node, options.map_file);
+  const split_mapf::MapSource maps(context.node, options.map_file);
   const split_mapf::PoseTransformer transformer;
   const split_mapf::GoalPlanner goal_planner(planner, options, maps, transformer);
-  split_mapf::PlanPublisher publisher(node, private_node, options.publish_paths);
-  split_mapf::PlanServices services(private_node, solvers, options, maps, goal_planner,
+  split_mapf::PlanPublisher publisher(context.node, context.private_node, options.publish_paths);
+  split_mapf::PlanServices services(context.private_node, solvers, options, maps, goal_planner,
                                     kServiceThreads);
   const split_mapf::QueueLimits limits{options.max_queued_goals, workers};
-  split_mapf::PlanServer server(private_node, goal_planner, publisher, limits);
-  const split_mapf::ServerDiagnostics diagnostics(node, private_node, server, limits, workers);
+  split_mapf::PlanServer server(context.private_node, goal_planner, publisher, limits);
+  const split_mapf::ServerDiagnostics diagnostics(context.node, context.private_node, server,
+                                                  limits, workers);
 
-  const split_mapf::MemoryReturn memory_return(node, server);
+  const split_mapf::MemoryReturn memory_return(context.node, server);
 
-  ros::AsyncSpinner spinner(kCallbackThreads);
-  spinner.start();
-  ROS_INFO("ready: %u workers, action %s", workers, private_node.resolveName("plan_paths").c_str());
-  split_mapf::waitForEndSignal();
-  server.shutdown();
-  services.shutdown();
-  ros::WallDuration(kFlushSec).sleep();
-  spinner.stop();
+  split_mapf::serve(kCallbackThreads,
+                    "ready: " + std::to_string(workers) + " workers, action " +
+                        context.private_node.resolveName("plan_paths"),
+                    [&] {
+                      server.shutdown();
+                      services.shutdown();
+                    });
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   split_mapf::limitArenas(kArenas);
-  ros::init(argc, argv, "split_mapf", ros::init_options::NoSigintHandler);
-  // Keeps ROS, and with it the log, alive until an error has been told.
-  const ros::NodeHandle node;
-  try {
-    run();
-  } catch (const std::exception& error) {
-    ROS_FATAL("%s", error.what());
-    ros::shutdown();
-    return 1;
-  }
-  ros::shutdown();
-  return 0;
+  return split_mapf::runNode(argc, argv, "split_mapf", run);
 }

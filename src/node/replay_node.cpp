@@ -1,42 +1,18 @@
 // The replay node: wiring only.
 
-#include <exception>
-
 #include <ros/ros.h>
 
-#include "split_mapf/ros/end_signal.h"
+#include "node/run_node.h"
 #include "split_mapf/ros/replay.h"
 
 namespace {
 
-void run() {
-  ros::NodeHandle node;
-  ros::NodeHandle private_node("~");
-  split_mapf::installEndSignal();
-  XmlRpc::XmlRpcValue parameters;
-  ros::param::get(private_node.getNamespace(), parameters);
-  const split_mapf::ReplayOptions options = split_mapf::readReplayOptions(parameters);
-  const split_mapf::Replay replay(node, private_node, options);
-  ros::AsyncSpinner spinner(2);
-  spinner.start();
-  ROS_INFO("waiting for a plan on %s", node.resolveName("plan").c_str());
-  split_mapf::waitForEndSignal();
-  spinner.stop();
+void run(split_mapf::NodeContext& context) {
+  const split_mapf::ReplayOptions options = split_mapf::readReplayOptions(context.parameters);
+  const split_mapf::Replay replay(context.node, context.private_node, options);
+  split_mapf::serve(2, "waiting for a plan on " + context.node.resolveName("plan"));
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "replay", ros::init_options::NoSigintHandler);
-  // Keeps ROS, and with it the log, alive until an error has been told.
-  const ros::NodeHandle node;
-  try {
-    run();
-  } catch (const std::exception& error) {
-    ROS_FATAL("%s", error.what());
-    ros::shutdown();
-    return 1;
-  }
-  ros::shutdown();
-  return 0;
-}
+int main(int argc, char** argv) { return split_mapf::runNode(argc, argv, "replay", run); }
