@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "ros/goal_messages.h"
-#include "ros/tracked_goal.h"
+#include "ros/planner_node.h"
 
 namespace split_mapf {
 namespace {
@@ -23,19 +22,7 @@ using test::smallGoal;
 using test::taskBetween;
 using test::TrackedGoal;
 
-class Answers : public ::testing::Test {
- protected:
-  void SetUp() override {
-    ASSERT_TRUE(client_.waitForActionServerToStart(ros::Duration(test::kPatienceSec)));
-  }
-  void expectServing() {
-    const TrackedGoal goal = runGoal(client_, smallGoal());
-    EXPECT_EQ(goal.result().outcome, PlanOutcome::SUCCEEDED) << goal.result().message;
-  }
-
-  ros::NodeHandle node_;
-  test::PlanActionClient client_{"split_mapf/plan_paths"};
-};
+class Answers : public test::PlannerNode {};
 
 TEST_F(Answers, TwentyThousandRobotsAndAFrameOfAMegabyteHadNoAnswer) {
   PlanPathsGoal message = smallGoal();
@@ -154,12 +141,3 @@ TEST_F(Answers, ATimeoutSaysWhatIsKnown) {
 
 }  // namespace
 }  // namespace split_mapf
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "answers_rostest");
-  ros::AsyncSpinner spinner(2);
-  ros::NodeHandle node;  // keeps ROS started between two tests
-  spinner.start();
-  return RUN_ALL_TESTS();
-}

@@ -12,8 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "ros/goal_messages.h"
-#include "ros/tracked_goal.h"
+#include "ros/planner_node.h"
 
 namespace split_mapf {
 namespace {
@@ -37,13 +36,7 @@ PlanPathsGoal twoRooms(int door) {
   return goal;
 }
 
-class DiscsThroughTheNode : public ::testing::Test {
- protected:
-  void SetUp() override { ASSERT_TRUE(client_.waitForActionServerToStart(ros::Duration(20))); }
-
-  ros::NodeHandle node_;
-  test::PlanActionClient client_{"split_mapf/plan_paths"};
-};
+class DiscsThroughTheNode : public test::PlannerNode {};
 
 TEST_F(DiscsThroughTheNode, PlansAreSafeAndPublishedWithTheirGraph) {
   PlanPathsGoal goal = twoRooms(13);
@@ -101,12 +94,3 @@ TEST_F(DiscsThroughTheNode, WithoutSizeNothingChanges) {
 
 }  // namespace
 }  // namespace split_mapf
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "discs_rostest");
-  ros::AsyncSpinner spinner(2);
-  ros::NodeHandle node;  // keeps ROS started between two tests
-  spinner.start();
-  return RUN_ALL_TESTS();
-}

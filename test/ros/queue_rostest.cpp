@@ -326,12 +326,3 @@ TEST_F(Queue, PublishesPlansOfAGoalThatIsStillRefined) {
 
 }  // namespace
 }  // namespace split_mapf
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "queue_rostest");
-  ros::AsyncSpinner spinner(4);
-  ros::NodeHandle node;  // keeps ROS started between two tests
-  spinner.start();
-  return RUN_ALL_TESTS();
-}

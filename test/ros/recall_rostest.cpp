@@ -222,12 +222,3 @@ TEST_F(Recall, CancelsOfGoalsThatNeverComeDoNotGatherForEver) {
 
 }  // namespace
 }  // namespace split_mapf
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "recall_rostest");
-  ros::AsyncSpinner spinner(2);
-  ros::NodeHandle node;  // keeps ROS started between two tests
-  spinner.start();
-  return RUN_ALL_TESTS();
-}

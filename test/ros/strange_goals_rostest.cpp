@@ -199,11 +199,3 @@ TEST_F(StrangeGoalsTest, EachEndsOnceInTimeAndTheNodeStaysAsItWas) {
 
 }  // namespace
 }  // namespace split_mapf
-
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "strange_goals_rostest");
-  ::testing::InitGoogleTest(&argc, argv);
-  ros::AsyncSpinner spinner(2);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}
