@@ -38,10 +38,6 @@ constexpr double kLeastReserveSec = 0.5;
 // A piece of a space split has little to do in its region: where it takes more expansions than this
 // besides those of its steps, others help.
 constexpr std::uint64_t kBudgetWithOthers = 60000;
-// Where a table of steps takes more, none is made unless its solver was asked for.
-constexpr std::uint64_t kMostStepTableMebibytes = 192;
-// And where it takes more than this, not even then: several of them would be kept.
-constexpr std::uint64_t kMostAskedForMebibytes = 2048;
 // A plan that was found in time may be validated so much later.
 constexpr double kFinishSec = 0.2;
 
@@ -110,9 +106,8 @@ void PlanRun::runStages() {
 }
 
 void PlanRun::takeTurnsOut() {
-  if (stepTablesAreTooLarge()) {
-    report_.message += "; not straightened: a table of steps would take " +
-                       std::to_string(stepTableMebibytes()) + " MiB";
+  if (step_table_.isTooLarge()) {
+    report_.message += "; not straightened: " + step_table_.describe();
     return;
   }
   log_.enterStage("straighten");
@@ -122,9 +117,8 @@ void PlanRun::takeTurnsOut() {
 }
 
 void PlanRun::refineWithin(double seconds) {
-  if (stepTablesAreTooLarge()) {
-    report_.message += "; not refined: a table of steps would take " +
-                       std::to_string(stepTableMebibytes()) + " MiB";
+  if (step_table_.isTooLarge()) {
+    report_.message += "; not refined: " + step_table_.describe();
     return;
   }
   log_.enterStage("refine");
@@ -225,6 +219,7 @@ void PlanRun::setLowerBounds() {
   report_.makespan_lower_bound = makespanLowerBound(instance_);
   report_.sum_of_costs_lower_bound = sumOfCostsLowerBound(instance_);
   report_.proved_lower_bound = static_cast<double>(lowerBound(instance_, report_.objective));
+  step_table_ = StepTable(instance_, report_.makespan_lower_bound);
   log_.setLowerBound(report_.proved_lower_bound);
 }
 
@@ -235,11 +230,10 @@ bool PlanRun::mustChoose() const { return request_.solver == "auto"; }
 void PlanRun::choose() {
   if (!mustChoose()) return;
   log_.enterStage("choose");
-  if (!last_resort_.empty() && stepTablesAreTooLarge()) {
+  if (!last_resort_.empty() && step_table_.isTooLarge()) {
     request_.solver = last_resort_;
     request_.solver_options.values = solvers_.info(last_resort_).lean_values;
-    choice_ =
-        " (chosen: a table of steps would take " + std::to_string(stepTableMebibytes()) + " MiB)";
+    choice_ = " (chosen: " + step_table_.describe() + ")";
     return;
   }
   features_ = measureFeatures(instance_, shortest_paths_, deadline_);
@@ -258,17 +252,8 @@ void PlanRun::choose() {
   choice_ = " (chosen: " + choice.reason + ")";
 }
 
-std::uint64_t PlanRun::stepTableMebibytes() const {
-  const std::uint64_t words = report_.makespan_lower_bound / 64 + 1;
-  return instance_.graph().size() * words * sizeof(std::uint64_t) >> 20U;
-}
-
-bool PlanRun::stepTablesAreTooLarge() const {
-  return stepTableMebibytes() > kMostStepTableMebibytes;
-}
-
 bool PlanRun::refuseStepTables() {
-  if (splits() || stepTableMebibytes() <= kMostAskedForMebibytes) return false;
+  if (splits() || !step_table_.isImpossible()) return false;
   if (!keepsStepTable(traits_, request_.solver)) {
     for (const auto& [name, value] : solvers_.info(request_.solver).lean_values) {
       request_.solver_options.values[name] = value;
@@ -276,9 +261,8 @@ bool PlanRun::refuseStepTables() {
     return false;
   }
   report_.termination = Termination::kMemoryLimit;
-  report_.message = "a table of steps of " + request_.solver + " would take " +
-                    std::to_string(stepTableMebibytes()) + " MiB, at most " +
-                    std::to_string(kMostAskedForMebibytes) + " are possible";
+  report_.message = step_table_.describe(" of " + request_.solver) + ", at most " +
+                    StepTable::mostPossible() + " are possible";
   if (!last_resort_.empty()) report_.message += "; solver " + last_resort_ + " keeps none";
   return true;
 }
@@ -384,7 +368,7 @@ bool PlanRun::callAnother(const RepairLoop::Outcome& outcome) {
   if (!others_) {
     Others others{piece_solver_.otherSolvers(), last_resort_};
     others.is_late = late;
-    others.without_tables = stepTablesAreTooLarge();
+    others.without_tables = step_table_.isTooLarge();
     others_ = lastCalledFirst(traits_, std::move(others));
     solve_deadline_ = deadline_;
   }

@@ -7,6 +7,7 @@
 #include "pipeline/piece_solver.h"
 #include "pipeline/repair_loop.h"
 #include "pipeline/run_log.h"
+#include "pipeline/step_table.h"
 #include "split_mapf/core/solvability.h"
 #include "split_mapf/pipeline/instance_features.h"
 #include "split_mapf/split/splitter.h"
@@ -61,10 +62,6 @@ class PlanRun {
   void takeFromOther();
   void refineWithin(double seconds);
   void takeTurnsOut();
-  /// What a table of a bit a cell and step takes, of which most searches keep two or more [MiB].
-  /// @pre the lower bounds are set.
-  std::uint64_t stepTableMebibytes() const;
-  bool stepTablesAreTooLarge() const;
   /// True, with the reason in the report, when the solver would keep one that no memory holds.
   bool refuseStepTables();
   /// Takes note of what somebody has proved for the objective [steps]. @pre there is a plan.
@@ -84,6 +81,7 @@ class PlanRun {
   std::optional<SolvabilityChecker> checker_;  ///< from stage "check" on
   const SolverRegistry& solvers_;
   const SolverTable traits_;
+  StepTable step_table_;           ///< from the lower bounds on
   const std::string last_resort_;  ///< a solver; empty: there is none
   PieceSolver piece_solver_;
   std::vector<Path> shortest_paths_;                ///< of the robots, until `auto` has chosen

@@ -1,0 +1,27 @@
+#include "pipeline/step_table.h"
+
+namespace split_mapf {
+namespace {
+
+constexpr std::uint64_t kMostMebibytes = 192;
+// Several of them would be kept.
+constexpr std::uint64_t kMostAskedForMebibytes = 2048;
+
+}  // namespace
+
+StepTable::StepTable(const Instance& instance, std::uint32_t steps) {
+  const std::uint64_t words = steps / 64 + 1;
+  mebibytes_ = instance.graph().size() * words * sizeof(std::uint64_t) >> 20U;
+}
+
+bool StepTable::isTooLarge() const { return mebibytes_ > kMostMebibytes; }
+
+bool StepTable::isImpossible() const { return mebibytes_ > kMostAskedForMebibytes; }
+
+std::string StepTable::describe(const std::string& whose) const {
+  return "a table of steps" + whose + " would take " + std::to_string(mebibytes_) + " MiB";
+}
+
+std::string StepTable::mostPossible() { return std::to_string(kMostAskedForMebibytes) + " MiB"; }
+
+}  // namespace split_mapf
