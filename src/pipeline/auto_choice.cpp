@@ -76,17 +76,14 @@ SolverTraits traitsOf(const std::string& solver, const SolverTable& solvers) {
   return found != solvers.end() ? found->second : SolverTraits();
 }
 
-/// Those that the question leaves open. A split that was asked for says nothing of the solver: the
+/// Those that there are. A split that was asked for says nothing of the solver: the
 /// whole instance stands for its pieces.
 std::vector<Candidate> candidates(const AutoQuestion& question, const CostModel& model) {
   std::vector<Candidate> result;
   for (MethodEstimate& method : model.estimate(question.features, question.objective)) {
     const SolverTraits traits = traitsOf(method.solver, question.solvers);
-    const bool solver_fits =
-        question.solver == "auto"
-            ? question.solvers.count(method.solver) > 0 && plansFor(traits, question.objective)
-            : question.solver == method.solver;
-    if (!solver_fits) continue;
+    if (question.solvers.count(method.solver) == 0 || !plansFor(traits, question.objective))
+      continue;
     const double processor_sec = method.seconds;
     method.seconds = wallSeconds(method, traits);
     result.push_back({std::move(method), processor_sec, traits.loose_plans});
@@ -127,8 +124,7 @@ void sortBestFirst(std::vector<Candidate>& methods, bool loose) {
 AutoChoice chooseMethod(const AutoQuestion& question, const CostModel& model) {
   std::vector<Candidate> methods = candidates(question, model);
   if (methods.empty()) {
-    return {question.solver == "auto" ? question.solvers.begin()->first : question.solver,
-            "nothing is known of it", 0, 0};
+    return {question.solvers.begin()->first, "nothing is known of it", 0, 0};
   }
   const bool loose = startsLoose(question);
   const double least = std::min_element(methods.begin(), methods.end(), costsLess)->excess;

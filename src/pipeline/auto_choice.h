@@ -15,7 +15,6 @@ namespace split_mapf {
 struct AutoQuestion {
   InstanceFeatures features;
   Objective objective = Objective::kMakespan;
-  std::string solver;    ///< "auto", or the solver that was asked for
   SolverTable solvers;   ///< that there are
   bool splits = false;   ///< whether pieces are solved, not the whole
   bool refines = false;  ///< whether the first plan is only where refinement begins

@@ -123,12 +123,7 @@ class Parser {
 }  // namespace
 
 SplitSpec parseSplitSpec(const std::string& text) {
-  if (text == "none") return {};
-  if (text == "auto") {
-    SplitSpec spec;
-    spec.kind = SplitSpec::Kind::kAuto;
-    return spec;
-  }
+  if (text == "none" || text == "auto") return {};
   return Parser(text).parse();
 }
 

