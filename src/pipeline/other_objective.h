@@ -16,7 +16,9 @@ bool isOtherWorthAsking(const CheckedRequest& request, std::uint32_t robots,
                         std::uint64_t sum_bound);
 
 /// The first plan of a request for the other objective, valid; nothing without one. With it each
-/// objective is at least as good at itself: both requests choose between the same two first plans.
+/// objective is at least as good at itself: both requests choose between the same two first plans,
+/// but where it takes long: those who are called after the choice have a budget of expansions, as
+/// they could take all the time that is left.
 /// @throws Interrupted when the deadline has expired.
 std::optional<Plan> planForOther(const Instance& instance, const CheckedRequest& request,
                                  const SolverRegistry& solvers, Executor& executor,

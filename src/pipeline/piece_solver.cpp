@@ -85,8 +85,9 @@ SolveResult PieceSolver::solveOne(const PieceTask& task, std::uint32_t threads,
       if (row.solver != request_.solver) options.values.clear();
       if (task.piece->shares > 0) options.expansion_limit = task.piece->shares * usualBudget(task);
       SolveRequest question(piece, deadline);
-      question.threads = threads;
-      result = solvers_.create(row.solver, options)->solve(question);
+      const auto solver = solvers_.create(row.solver, options);
+      if (solver->traits().uses_threads) question.threads = threads;
+      result = solver->solve(question);
       row.horizon = makespanLowerBound(piece);
     } catch (const Interrupted&) {
       result = SolveResult();

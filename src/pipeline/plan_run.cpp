@@ -38,6 +38,8 @@ constexpr double kLeastReserveSec = 0.5;
 // A piece of a space split has little to do in its region: where it takes more expansions than this
 // besides those of its steps, others help.
 constexpr std::uint64_t kBudgetWithOthers = 60000;
+// Of a solver that is called for a plan which is only looked at: half a second or so.
+constexpr std::uint64_t kTurnOfOthers = 2000000;
 // A plan that was found in time may be validated so much later.
 constexpr double kFinishSec = 0.2;
 
@@ -241,7 +243,6 @@ void PlanRun::choose() {
   AutoQuestion question;
   question.features = *features_;
   question.objective = report_.objective;
-  question.solver = request_.solver;
   question.solvers = traits_;
   question.splits = splits();
   question.refines = request_.asked.refine_sec > 0;
@@ -253,17 +254,24 @@ void PlanRun::choose() {
 }
 
 bool PlanRun::refuseStepTables() {
-  if (splits() || !step_table_.isImpossible()) return false;
+  const bool is_cut = splits() && request_.split.spec.time_ratios.size() != 1;
+  if (is_cut || request_.split.spec.space || !step_table_.isImpossible()) return false;
   if (!keepsStepTable(traits_, request_.solver)) {
+    bool is_lean = true;
     for (const auto& [name, value] : solvers_.info(request_.solver).lean_values) {
-      request_.solver_options.values[name] = value;
+      // What the user asks for is done or refused.
+      const auto [given, is_new] = request_.solver_options.values.emplace(name, value);
+      is_lean = is_lean && (is_new || given->second == value);
     }
-    return false;
+    if (is_lean) return false;
   }
   report_.termination = Termination::kMemoryLimit;
   report_.message = step_table_.describe(" of " + request_.solver) + ", at most " +
                     StepTable::mostPossible() + " are possible";
-  if (!last_resort_.empty()) report_.message += "; solver " + last_resort_ + " keeps none";
+  if (!last_resort_.empty()) {
+    report_.message += "; solver " + last_resort_ + " keeps none";
+    if (request_.solver == last_resort_) report_.message += " without options of its own";
+  }
   return true;
 }
 
@@ -379,7 +387,10 @@ bool PlanRun::callAnother(const RepairLoop::Outcome& outcome) {
   others_->pop_back();
   request_.splitter = nullptr;
   request_.solver_options.values.clear();
-  request_.solver_options.expansion_limit = 0;
+  if (step_table_.isTooLarge()) {
+    request_.solver_options.values = solvers_.info(request_.solver).lean_values;
+  }
+  request_.solver_options.expansion_limit = request_.first_plan_only ? kTurnOfOthers : 0;
   report_.subproblems.clear();  // they tell of the plan, and this one came to nothing
   return true;
 }

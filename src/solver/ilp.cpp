@@ -178,9 +178,18 @@ SolveResult IlpSolver::run(const SolveRequest& request) const {
   if (const auto robot = findCutOffRobot(instance)) return cutOffResult(*robot);
   const SolvabilityVerdict verdict = checkSolvable(instance, deadline);
   if (verdict.answer == Solvability::kUnsolvable) return unsolvable(verdict, instance.grid());
+  std::optional<Plan> known;
+  if (request.known != nullptr) {
+    known = *request.known;
+    trimToArrival(*known);
+  }
   SolveResult stopped;
   if (deadline.expired()) {
     stopped.termination = interruptionOf(deadline);
+    if (!known) return stopped;
+    stopped.termination = Termination::kSolved;
+    stopped.plan = std::move(known);
+    certifyByLowerBound(stopped, objective_, std::string(kName) + "/shortest_paths");
     return stopped;
   }
   ilp::UpperBound upper_bound(instance, objective_, seed_, deadline);
@@ -189,11 +198,6 @@ SolveResult IlpSolver::run(const SolveRequest& request) const {
   effort.memory_mb = settings_.memory_mb;
   effort.expansions = expansion_limit_ * kStatesAnExpansion;
   ilp::Rounding rounding;
-  std::optional<Plan> known;
-  if (request.known != nullptr) {
-    known = *request.known;
-    trimToArrival(*known);
-  }
   BetterPlans better(request.on_better, objective_);
   better.offer(known);
   if (settings_.heuristic) {

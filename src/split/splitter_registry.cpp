@@ -96,10 +96,16 @@ SplitRequest SplitterRegistry::read(const std::string& text,
   request.text = text;
   request.values = values;
   for (const auto& entry : values) requireKnown(entry.first);
-  request.options = readSplitOptions(values, objective);
   if (has(text) && !info(text).makes) {
     request.spec.kind = SplitSpec::Kind::kNamed;
+    // Its own options are its own, whatever others call theirs.
+    std::map<std::string, std::string> common;
+    for (const auto& entry : values) {
+      if (!offers(info(text).options, entry.first)) common.insert(entry);
+    }
+    request.options = readSplitOptions(common, objective);
   } else {
+    request.options = readSplitOptions(values, objective);
     request.spec = parseSplitSpec(text);
   }
   const SplitterInfo* const splitter = find(request);

@@ -83,6 +83,14 @@ TEST(IlpSolver, AKnownPlanIsTheAnswerWhereItHasNoTimeForABetterOne) {
       makeSolver(Objective::kSumOfCosts, {{"heuristic", "false"}}, 1).solve(request);
   ASSERT_TRUE(result.plan) << result.message;
   EXPECT_LE(sumOfCostsOf(*result.plan), sumOfCostsOf(known));
+
+  // Nor any time at all, which was no plan.
+  SolveRequest late(instance, Deadline(0));
+  late.known = &known;
+  const SolveResult kept = makeSolver(Objective::kSumOfCosts, {}, 0).solve(late);
+  ASSERT_TRUE(kept.plan) << kept.message;
+  EXPECT_EQ(kept.termination, Termination::kSolved);
+  EXPECT_EQ(sumOfCostsOf(*kept.plan), sumOfCostsOf(known));
 }
 
 TEST(IlpSolver, LeavesKnotsToItsEngineWhereItIsToldTo) {

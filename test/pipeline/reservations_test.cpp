@@ -241,6 +241,20 @@ TEST(Reservations, AKnownPlanIsWhereConflictOptimisationBegins) {
   const SolveResult kept = builtinSolvers().create("conflict_optimizer", options)->solve(request);
   ASSERT_TRUE(kept.plan);
   EXPECT_LE(makespanOf(*kept.plan), makespanOf(known));
+
+  // At its own best plan nothing is left to be placed.
+  options.expansion_limit = 0;
+  const auto solver = builtinSolvers().create("conflict_optimizer", options);
+  SolveRequest anew(*crowd.rest);
+  anew.reserved = &crowd.reserved;
+  const SolveResult best = solver->solve(anew);
+  ASSERT_TRUE(best.optimal);
+  EXPECT_GT(best.low_level_expansions, 0U);
+  anew.known = &*best.plan;
+  const SolveResult again = solver->solve(anew);
+  EXPECT_EQ(again.low_level_expansions, 0U);
+  EXPECT_EQ(again.plan->paths, best.plan->paths);
+
   Plan broken = known;
   broken.paths[0] = {crowd.rest->start(1)};
   request.known = &broken;

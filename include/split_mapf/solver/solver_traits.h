@@ -21,7 +21,7 @@ struct SolverTraits {
   bool anytime = false;         ///< hands better plans on while it searches
   bool takes_known = false;     ///< begins at a known plan
   bool takes_reserved = false;  ///< keeps reserved paths
-  bool uses_threads = false;    ///< more than one
+  bool uses_threads = false;    ///< more than one, where they are lent; never refused
 
   // Where it pays.
   /// Where another solver has failed, those of less rank are called first; 0: never called.
