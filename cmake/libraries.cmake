@@ -7,6 +7,7 @@ list(FILTER SPLIT_MAPF_CORE_SOURCES EXCLUDE REGEX "/src/solver/(ilp\\.cpp|ilp/|a
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS config/cost_model.yaml)
 file(READ config/cost_model.yaml SPLIT_MAPF_COST_MODEL)
 configure_file(cmake/cost_model.cpp.in cost_model.cpp @ONLY)
+split_mapf_in_units(split_mapf_core SPLIT_MAPF_CORE_SOURCES)
 add_library(split_mapf_core ${SPLIT_MAPF_CORE_SOURCES} ${CMAKE_CURRENT_BINARY_DIR}/cost_model.cpp)
 target_include_directories(split_mapf_core
   PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/include
@@ -19,6 +20,7 @@ split_mapf_compile_options(split_mapf_core)
 include(cmake/ilp.cmake)
 
 file(GLOB SPLIT_MAPF_TOOL_SOURCES CONFIGURE_DEPENDS src/tool/*.cpp)
+split_mapf_in_units(split_mapf SPLIT_MAPF_TOOL_SOURCES)
 add_executable(split_mapf ${SPLIT_MAPF_TOOL_SOURCES})
 target_include_directories(split_mapf PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
 target_compile_definitions(split_mapf PRIVATE SPLIT_MAPF_VERSION="${PROJECT_VERSION}")

@@ -1,5 +1,6 @@
 # The ROS side: conversions and servers as a library, the nodes, installation.
 file(GLOB SPLIT_MAPF_ROS_SOURCES CONFIGURE_DEPENDS src/ros/*.cpp)
+split_mapf_in_units(split_mapf_ros SPLIT_MAPF_ROS_SOURCES)
 add_library(split_mapf_ros ${SPLIT_MAPF_ROS_SOURCES})
 #catkin_lint: ignore_once external_interface_path
 target_include_directories(split_mapf_ros SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})

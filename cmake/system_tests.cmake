@@ -14,10 +14,12 @@ set_tests_properties(tool PROPERTIES TIMEOUT 600)
 
 # Tests run side by side. These measure time, so they have the machine to themselves: programs of
 # seconds, and rostests that hold the node to its limits. The other rostests mostly wait for states.
-# What takes longest begins first.
+# What takes longest begins first. Under sanitizers nobody looks at time.
 get_property(split_mapf_tests DIRECTORY PROPERTY TESTS)
 foreach(test IN LISTS split_mapf_tests)
-  if(test MATCHES "(core|solver|pipeline|ilp|ros)_tests$"
+  if(SPLIT_MAPF_SANITIZE)
+    set_tests_properties(${test} PROPERTIES COST 100)
+  elseif(test MATCHES "(core|solver|pipeline|ilp|ros)_tests$"
       OR test MATCHES "rostest.*(big_maps|plan_server|strange_goals|termination)")
     set_tests_properties(${test} PROPERTIES RUN_SERIAL ON)
   elseif(test MATCHES "rostest")

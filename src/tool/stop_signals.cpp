@@ -41,7 +41,7 @@ void onTimer(int /*signal*/) {
   const char* message = stopped ? "split_mapf: cancelled while reading files\n"
                                 : "split_mapf: the time limit passed while reading files\n";
   // A message that cannot be written changes nothing: the exit code says it too.
-  if (write(STDERR_FILENO, message, std::strlen(message)) < 0) {
+  if (::write(STDERR_FILENO, message, std::strlen(message)) < 0) {
   }
   _exit(static_cast<int>(stopped ? ExitCode::kCancelled : ExitCode::kTimeout));
 }
