@@ -27,13 +27,32 @@ Deadline Deadline::withStop(std::shared_ptr<const StopFlag> stop) const {
 }
 
 Deadline Deadline::within(double seconds) const {
+  if (clock_) {
+    Deadline other = *this;
+    if (seconds >= 0) {
+      other.counted_end_sec_ = std::min(counted_end_sec_, clock_->nowSec() + seconds);
+    }
+    return other;
+  }
   Deadline other(seconds, stop_);
   if (!limited_) return other;
   if (!other.limited_ || end_ < other.end_) return *this;
   return other;
 }
 
+Deadline Deadline::countedBy(std::shared_ptr<WorkClock> clock) const {
+  Deadline other = *this;
+  other.clock_ = std::move(clock);
+  return other;
+}
+
+double Deadline::nowSec() const {
+  if (clock_) return clock_->nowSec();
+  return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+}
+
 double Deadline::remainingSec() const {
+  if (clock_) return std::max(0.0, counted_end_sec_ - clock_->nowSec());
   if (!limited_) return std::numeric_limits<double>::infinity();
   return std::max(0.0, std::chrono::duration<double>(end_ - Clock::now()).count());
 }

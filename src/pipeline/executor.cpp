@@ -76,7 +76,11 @@ class Batch {
 Executor::Executor(std::uint32_t threads)
     : threads_(std::max(threads, 1U)), pool_(std::make_unique<Pool>(threads_)) {}
 
-Executor::~Executor() { pool_->workers.join(); }
+Executor::Executor(OnCallersThread /*tag*/) : threads_(1) {}
+
+Executor::~Executor() {
+  if (pool_) pool_->workers.join();
+}
 
 void Executor::run(std::vector<Job> jobs, std::uint32_t threads, const Deadline& deadline) {
   if (jobs.empty()) return;
@@ -84,7 +88,7 @@ void Executor::run(std::vector<Job> jobs, std::uint32_t threads, const Deadline&
     return a.expected_effort > b.expected_effort;
   });
   const std::uint32_t allowed = threadsFor(threads);
-  const std::size_t drawers = std::min<std::size_t>(allowed, jobs.size());
+  const std::size_t drawers = pool_ ? std::min<std::size_t>(allowed, jobs.size()) : 0;
   const auto batch = std::make_shared<Batch>(std::move(jobs));
   for (std::size_t posted = 0; posted < drawers; ++posted) {
     try {
@@ -95,6 +99,7 @@ void Executor::run(std::vector<Job> jobs, std::uint32_t threads, const Deadline&
       break;
     }
   }
+  if (!pool_) batch->draw();
   batch->wait(deadline);
 }
 

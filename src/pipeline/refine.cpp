@@ -88,10 +88,10 @@ class Refinement {
   }
 
   template <typename Work>
-  static void timed(double& seconds, Work work) {
-    const auto begin = Deadline::Clock::now();
+  void timed(double& seconds, Work work) {
+    const double begin_sec = deadline_.nowSec();
     work();
-    seconds += std::chrono::duration<double>(Deadline::Clock::now() - begin).count();
+    seconds += deadline_.nowSec() - begin_sec;
   }
 
   void take(Plan plan) {

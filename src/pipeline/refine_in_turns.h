@@ -9,16 +9,17 @@
 
 namespace split_mapf {
 
-/// refine() for either objective in turns, of which each is twice as long as that before: makespan,
-/// sum of costs, and so on, whichever was asked for. What a turn finds begins the next one of each
-/// objective that it serves better. So requests for the two objectives go through the same turns
-/// and choose from the same plans, and more time adds turns to those that less time has, but that
-/// the clock ends turns, and with them the last one sooner. Ends when the plan for the objective
-/// asked for is proved the best; where its cost is proved the least, the other objective has no
-/// more turns.
+/// refine() for either objective in turns, of which each is twice as long as that before, up to
+/// some seconds: makespan, sum of costs, and so on, whichever was asked for. In a turn a fixed
+/// number of searches go side by side, each with draws of its own, on as many threads as there are;
+/// what the turn found begins the next one of each objective that it serves better. Turns are
+/// counted in work, not by the clock. So a request does the same at any number of threads and at
+/// any load, up to where its time ends: more time never ends worse, and of two requests for the two
+/// objectives, given the same time, none finds what the other would need. Ends when
+/// the plan for the objective asked for is proved the best.
 /// @param plans  the first ones that are known, valid; at least one.
-/// @param improved  told every plan that is better for the objective asked for, then for the sum of
-/// costs, than all that were there before.
+/// @param improved  told, after each turn that found one, the plan that is better for the objective
+/// asked for, then for the sum of costs, than all that were there before.
 void refineInTurns(const Instance& instance, const std::vector<Plan>& plans,
                    const RefineOptions& options, Executor& executor, const Deadline& deadline,
                    const std::function<void(const Plan&)>& improved);

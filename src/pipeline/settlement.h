@@ -29,6 +29,8 @@ class Settlement {
   /// Too little memory ends the turns.
   std::optional<Plan> takeTurn(const Plan& plan, const Deadline& deadline);
 
+  /// That the next turn may take.
+  std::uint64_t states() const { return states_; }
   /// Proved for the objective [steps].
   std::uint64_t lowerBound() const { return bound_; }
   /// Proved for the sum of costs, for makespan of the plans of least makespan [steps].

@@ -47,6 +47,20 @@ TEST(Deadline, ExpiresWhenTheFlagIsRaised) {
   EXPECT_FALSE(deadline.timeIsUp());
 }
 
+TEST(Deadline, CountsPollsInsteadOfTime) {
+  const auto clock = std::make_shared<WorkClock>();
+  const Deadline counted = Deadline(600).countedBy(clock);
+  const Deadline soon = counted.within(0.01);
+  EXPECT_NEAR(soon.remainingSec(), 0.01, 1e-9);
+  int polls = 0;
+  while (!soon.expired()) ++polls;
+  EXPECT_EQ(polls, 99) << "the hundredth tick is the end";
+  EXPECT_EQ(soon.remainingSec(), 0);
+  EXPECT_FALSE(counted.expired());
+  EXPECT_GT(counted.nowSec(), soon.nowSec() - 1e-9);
+  EXPECT_TRUE(Deadline(0).countedBy(clock).within(60).expired()) << "the limit of time stays";
+}
+
 TEST(Deadline, AChildFlagIsRaisedWithItsParentAndNotTheOtherWayRound) {
   auto parent = std::make_shared<StopFlag>();
   auto child = std::make_shared<StopFlag>(parent);

@@ -30,6 +30,19 @@ TEST(Executor, StartsTheLongestJobFirst) {
   EXPECT_EQ(order, "bca");
 }
 
+TEST(Executor, OnTheCallersThreadJobsMayHaveJobsOfTheirOwn) {
+  Executor executor(Executor::OnCallersThread{});
+  const std::thread::id caller = std::this_thread::get_id();
+  int runs = 0;
+  executor.forEach(3, [&](std::uint32_t) {
+    executor.forEach(2, [&](std::uint32_t) {
+      EXPECT_EQ(std::this_thread::get_id(), caller);
+      ++runs;
+    });
+  });
+  EXPECT_EQ(runs, 6);
+}
+
 TEST(Executor, KeepsToTheAllowedNumberOfThreads) {
   Executor executor(4);
   std::atomic<int> running{0};

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <exception>
+#include <limits>
 #include <memory>
 
 namespace split_mapf {
@@ -31,8 +32,21 @@ class Interrupted : public std::exception {
   const char* what() const noexcept override { return "interrupted: the deadline has expired"; }
 };
 
+/// Time that is counted instead of measured: one poll of a deadline on it is one tick. So work of
+/// one thread ends at the same place on every machine and at any load. A tick stands for about as
+/// long as a search takes from one poll to the next. Used by one thread at a time.
+class WorkClock {
+ public:
+  void tick() { ++ticks_; }
+  double nowSec() const { return static_cast<double>(ticks_) * kSecPerTick; }
+
+ private:
+  static constexpr double kSecPerTick = 1e-4;
+  std::uint64_t ticks_ = 0;
+};
+
 /// The only answer to "stop now?": a point in time, a stop flag, or both. A value, cheap to copy;
-/// thread-safe. Every loop that can run long polls expired().
+/// thread-safe, but where it counts on a work clock. Every loop that can run long polls expired().
 class Deadline {
  public:
   using Clock = std::chrono::steady_clock;
@@ -47,6 +61,9 @@ class Deadline {
   Deadline withStop(std::shared_ptr<const StopFlag> stop) const;
   /// The same flag with at most `seconds` from now.
   Deadline within(double seconds) const;
+  /// The same flag and limit of time; what within() adds from now on, nowSec() and remainingSec()
+  /// are counted by this clock, which each poll makes go on.
+  Deadline countedBy(std::shared_ptr<WorkClock> clock) const;
 
   bool expired() const { return stopRequested() || timeIsUp(); }
   /// @throws Interrupted when expired.
@@ -54,15 +71,22 @@ class Deadline {
     if (expired()) throw Interrupted();
   }
   bool stopRequested() const { return stop_ && stop_->requested(); }
-  bool timeIsUp() const { return limited_ && Clock::now() >= end_; }
+  bool timeIsUp() const {
+    if (clock_) clock_->tick();
+    return (limited_ && Clock::now() >= end_) || (clock_ && clock_->nowSec() >= counted_end_sec_);
+  }
   /// Seconds left, at least 0; infinity without a limit.
   double remainingSec() const;
+  /// Seconds since some moment, for differences.
+  double nowSec() const;
   const std::shared_ptr<const StopFlag>& stopFlag() const { return stop_; }
 
  private:
   bool limited_ = false;
   Clock::time_point end_;
   std::shared_ptr<const StopFlag> stop_;
+  std::shared_ptr<WorkClock> clock_;
+  double counted_end_sec_ = std::numeric_limits<double>::infinity();
 };
 
 /// Looks at a deadline once in a few thousand calls, for loops whose turns take nanoseconds.

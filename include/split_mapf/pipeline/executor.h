@@ -16,6 +16,10 @@ class Executor {
  public:
   /// @param threads  number of worker threads, >= 1.
   explicit Executor(std::uint32_t threads);
+  struct OnCallersThread {};
+  /// No workers: whoever calls does all the jobs, one after another. Unlike the others it may be
+  /// used from inside a job.
+  explicit Executor(OnCallersThread);
   /// Waits for the running batches.
   ~Executor();
   Executor(const Executor&) = delete;
@@ -35,7 +39,8 @@ class Executor {
 
   /// Runs all jobs on at most `threads` workers (0: all) and returns when the last has ended. The
   /// first exception that a job throws is rethrown here, after all others have ended. Thread-safe;
-  /// never call it from inside a job.
+  /// never call it from
+  /// inside a job of workers.
   /// Once `deadline` has expired, the caller itself runs what no worker has begun, which is quick
   /// where the jobs poll the same deadline: other batches may keep the workers busy for long.
   void run(std::vector<Job> jobs, std::uint32_t threads = 0, const Deadline& deadline = {});
