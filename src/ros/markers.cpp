@@ -61,6 +61,8 @@ void requireDrawable(const MultiRobotPlan& plan) {
     throw InputError("the plan's step_duration is " + numeral(plan.step_duration) +
                      " s; a number > 0 is needed");
   }
+  const std::string too_long = faultOfWays(plan);
+  if (!too_long.empty()) throw InputError(too_long);
   const std::uint64_t cells = std::uint64_t{plan.grid.width} * plan.grid.height;
   for (const RobotPath& path : plan.paths) {
     if (path.cells.empty()) {
@@ -90,9 +92,10 @@ PlanMarkers::PlanMarkers(const MultiRobotPlan& plan, const MarkerStyle& style)
       geometry_(plan.grid, plan.header.frame_id),
       robot_size_m_(robotSize(style, plan)) {
   requireDrawable(plan);
+  const RobotWays ways(plan, geometry_);
   for (const RobotPath& path : plan.paths) {
     ids_.push_back(path.robot_id);
-    ways_.push_back(wayOf(plan, ways_.size(), geometry_));
+    ways_.push_back(ways.of(ways_.size()));
     steps_ = std::max(steps_, static_cast<double>(ways_.back().size() - 1));
     if (isOnRoadmap(plan) && style.robot_size_cells == 0) radii_.push_back(path.radius);
   }

@@ -172,6 +172,8 @@ void checkShapes(const MultiRobotPlan& plan, std::vector<std::string>& found) {
                       numeral(plan.robot_radius) + " m");
     }
   }
+  const std::string too_long = faultOfWays(plan);
+  if (!too_long.empty()) found.push_back(too_long);
   if (!(plan.clearance >= 0)) {
     found.push_back("the plan's clearance is " + numeral(plan.clearance) + " m");
   }
@@ -231,9 +233,10 @@ std::vector<std::string> findDiscViolations(const MultiRobotPlan& plan, const Ma
   discs.clearance_m = plan.clearance;
   std::vector<Course> courses;
   std::vector<std::string> names;
+  const RobotWays ways(plan, geometry);
   for (std::size_t i = 0; i < plan.paths.size(); ++i) {
     deadline.require();
-    const std::vector<geometry_msgs::Point> way = wayOf(plan, i, geometry);
+    const std::vector<geometry_msgs::Point> way = ways.of(i);
     comparePoses(plan.paths[i], way, found);
     Course& course = courses.emplace_back();
     for (const geometry_msgs::Point& p : way) course.push_back(toRaster(frame, {p.x, p.y}));

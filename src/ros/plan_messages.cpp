@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
 #include "split_mapf/ros/disc_goal.h"
 #include "split_mapf/ros/orientation.h"
+#include "split_mapf/ros/result_limits.h"
 
 namespace split_mapf {
 namespace {
@@ -31,6 +33,12 @@ std::vector<double> headingsOf(const std::vector<geometry_msgs::Point>& points, 
     known = true;
   }
   return headings;
+}
+
+std::size_t longestPath(const MultiRobotPlan& plan) {
+  std::size_t longest = 0;
+  for (const RobotPath& path : plan.paths) longest = std::max(longest, path.cells.size());
+  return longest;
 }
 
 void keepHeading(const geometry_msgs::Pose& asked, geometry_msgs::Pose& pose) {
@@ -58,23 +66,34 @@ std::string faultOfLegs(const MultiRobotPlan& plan, const RobotPath& path) {
          std::to_string(plan.departure_steps) + " and " + std::to_string(plan.arrival_steps);
 }
 
-std::vector<geometry_msgs::Point> wayOf(const MultiRobotPlan& plan, std::size_t robot,
-                                        const MapGeometry& geometry) {
-  const RobotPath& path = plan.paths[robot];
+std::string faultOfWays(const MultiRobotPlan& plan) {
+  if (!isOnRoadmap(plan)) return "";
+  const std::uint64_t legs = std::uint64_t{plan.departure_steps} + plan.arrival_steps;
+  const std::uint64_t points = longestPath(plan) + legs;
+  constexpr std::uint64_t kMostPoints = kMostPlanBytes / sizeof(RobotPath::_cells_type::value_type);
+  if (points == 0 || plan.paths.size() <= kMostPoints / points) return "";
+  return "the ways of " + counted(plan.paths.size(), "robot") + " with up to " +
+         counted(points, "pose") + " each are longer than a plan may be; all robots may have " +
+         std::to_string(kMostPoints) + " poses together";
+}
+
+RobotWays::RobotWays(const MultiRobotPlan& plan, MapGeometry geometry)
+    : plan_(plan), geometry_(std::move(geometry)), longest_path_(longestPath(plan)) {}
+
+std::vector<geometry_msgs::Point> RobotWays::of(std::size_t robot) const {
+  const RobotPath& path = plan_.paths[robot];
   std::vector<geometry_msgs::Point> points;
-  const bool legs = isOnRoadmap(plan);
+  const bool legs = isOnRoadmap(plan_);
   if (legs) points.assign(path.departure_steps, path.start.position);
-  const std::size_t waits = legs ? plan.departure_steps - path.departure_steps : 0;
-  const geometry_msgs::Point first = geometry.centreOf(geometry.cellOf(path.cells.front()));
+  const std::size_t waits = legs ? plan_.departure_steps - path.departure_steps : 0;
+  const geometry_msgs::Point first = geometry_.centreOf(geometry_.cellOf(path.cells.front()));
   points.insert(points.end(), waits, first);
   for (const std::uint32_t cell : path.cells) {
-    points.push_back(geometry.centreOf(geometry.cellOf(cell)));
+    points.push_back(geometry_.centreOf(geometry_.cellOf(cell)));
   }
   if (!legs || path.arrival_steps == 0) return points;
   // Not as the plan claims: this counts what is there.
-  std::size_t longest = 1;
-  for (const RobotPath& other : plan.paths) longest = std::max(longest, other.cells.size());
-  const std::size_t leaves = plan.departure_steps + longest - 1 + path.arrival_steps;
+  const std::size_t leaves = plan_.departure_steps + longest_path_ - 1 + path.arrival_steps;
   points.resize(std::max(points.size(), leaves), points.back());
   points.push_back(path.goal.position);
   return points;
@@ -129,10 +148,10 @@ PlanStatistics statisticsOf(const PlanReport& report) {
 
 namespace {
 
-nav_msgs::Path posesUntil(const MultiRobotPlan& plan, std::size_t robot, SparsePoll& poll) {
-  const MapGeometry geometry(plan.grid, plan.header.frame_id);
-  const std::vector<geometry_msgs::Point> points = wayOf(plan, robot, geometry);
-  const std::vector<double> headings = headingsOf(points, geometry.yaw());
+nav_msgs::Path posesUntil(const RobotWays& ways, std::size_t robot, SparsePoll& poll) {
+  const MultiRobotPlan& plan = ways.plan();
+  const std::vector<geometry_msgs::Point> points = ways.of(robot);
+  const std::vector<double> headings = headingsOf(points, ways.geometry().yaw());
   nav_msgs::Path path;
   path.header = plan.header;
   path.poses.resize(points.size());
@@ -154,16 +173,17 @@ nav_msgs::Path posesUntil(const MultiRobotPlan& plan, std::size_t robot, SparseP
 
 }  // namespace
 
-nav_msgs::Path posesOf(const MultiRobotPlan& plan, std::size_t robot) {
+nav_msgs::Path posesOf(const RobotWays& ways, std::size_t robot) {
   const Deadline never;
   SparsePoll poll(never);
-  return posesUntil(plan, robot, poll);
+  return posesUntil(ways, robot, poll);
 }
 
 void fillPoses(MultiRobotPlan& plan, const Deadline& deadline) {
   SparsePoll poll(deadline);
+  const RobotWays ways(plan, MapGeometry(plan.grid, plan.header.frame_id));
   for (std::size_t robot = 0; robot < plan.paths.size(); ++robot) {
-    plan.paths[robot].path = posesUntil(plan, robot, poll);
+    plan.paths[robot].path = posesUntil(ways, robot, poll);
   }
 }
 

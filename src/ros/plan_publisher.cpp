@@ -33,13 +33,14 @@ void PlanPublisher::publish(const MultiRobotPlan& plan, const PlanLayout& layout
 
 void PlanPublisher::publishPaths(const MultiRobotPlan& plan) {
   std::map<std::string, ros::Publisher> paths;
+  const RobotWays ways(plan, MapGeometry(plan.grid, plan.header.frame_id));
   for (std::size_t robot = 0; robot < plan.paths.size(); ++robot) {
     const std::string name = rosNameOf(plan.paths[robot].robot_id);
     const auto known = paths_.find(name);
     ros::Publisher& publisher = paths[name];
     publisher = known != paths_.end() ? known->second
                                       : node_.advertise<nav_msgs::Path>(name + "/path", 1, true);
-    publisher.publish(posesOf(plan, robot));
+    publisher.publish(posesOf(ways, robot));
   }
   // Publishers of robots that have no path any more end here, and their latched paths with them.
   paths_ = std::move(paths);

@@ -9,6 +9,7 @@
 
 #include "ros/goal_messages.h"
 #include "solver/available/available_solvers.h"
+#include "split_mapf/core/error.h"
 #include "split_mapf/pipeline/planner.h"
 #include "split_mapf/ros/markers.h"
 #include "split_mapf/ros/orientation.h"
@@ -141,6 +142,22 @@ TEST(DiscGoal, EveryWrongClaimIsFound) {
   fillPoses(plan);
   plan.paths[1].path.poses[1].pose.position.x += 0.1;
   expect("has another pose at step 1", plan);
+}
+
+TEST(DiscGoal, AShortMessageWithWaysThatNoMemoryHoldsWasPutTogether) {
+  const nav_msgs::OccupancyGrid map = twoRooms(13);
+  MultiRobotPlan plan = planFor(place(map, passingRobots(), optionsFor(0.3)));
+  plan.paths[1].cells.resize(1);
+  plan.paths[1].arrival_steps = plan.arrival_steps = 1;
+  while (plan.paths.size() < 2100) {
+    plan.paths.push_back(RobotPath(plan.paths[1]));
+    plan.paths.back().robot_id = std::to_string(plan.paths.size());
+  }
+  plan.paths[0].cells.resize(32000, plan.paths[0].cells.back());
+  const std::vector<std::string> violations = violationsOf(plan, map);
+  EXPECT_NE(violations.back().find("the ways of 2100 robots"), std::string::npos)
+      << violations.back();
+  EXPECT_THROW(PlanMarkers(plan, {}), InputError);
 }
 
 TEST(DiscGoal, FaultsHaveTheirOutcomes) {

@@ -82,11 +82,12 @@ TEST(Poses, AreStampedAndHeadAlongTheMotion) {
 TEST(Poses, TurnWithTheMap) {
   MultiRobotPlan plan = smallPlan();
   plan.grid.origin.orientation = quaternionOf(M_PI / 2);
-  const nav_msgs::Path path = posesOf(plan, 0);
+  const RobotWays ways(plan, MapGeometry(plan.grid, plan.header.frame_id));
+  const nav_msgs::Path path = posesOf(ways, 0);
   EXPECT_NEAR(path.poses[0].pose.position.x, -0.5, 1e-9);
   EXPECT_NEAR(path.poses[0].pose.position.y, 0.5, 1e-9);
   EXPECT_NEAR(yawOf(path.poses[0].pose.orientation), M_PI / 2, 1e-9);
-  EXPECT_NEAR(yawOf(posesOf(plan, 1).poses[0].pose.orientation), M_PI / 2, 1e-9);
+  EXPECT_NEAR(yawOf(posesOf(ways, 1).poses[0].pose.orientation), M_PI / 2, 1e-9);
 }
 
 TEST(PlanMessage, DidNotHearACancel) {

@@ -101,7 +101,9 @@ TEST(PosesOf, HoldTheLastStampsOfRosTime) {
   plan.step_duration = 100;
   plan.header.stamp = ros::Time(4294967000U, 0);
   requireTimesFit(1, plan.step_duration, plan.header.stamp);
-  EXPECT_EQ(posesOf(plan, 0).poses.back().header.stamp, ros::Time(4294967100U, 0));
+  EXPECT_EQ(
+      posesOf({plan, MapGeometry(plan.grid, plan.header.frame_id)}, 0).poses.back().header.stamp,
+      ros::Time(4294967100U, 0));
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ std_msgs::ColorRGBA colourOf(std::size_t index);
 class PlanMarkers {
  public:
   /// @throws GoalError (INVALID_MAP) for a grid that is none; InputError for a path that is empty
-  /// or leaves the grid, and for a step duration that is not positive.
+  /// or leaves the grid, ways that are too long together, and a step duration that is not
+  /// positive.
   PlanMarkers(const MultiRobotPlan& plan, const MarkerStyle& style);
 
   /// The greatest arrival time [steps].

@@ -17,7 +17,7 @@ namespace split_mapf {
 std::vector<std::string> findViolations(const MultiRobotPlan& plan, const PlanningGrid& grid);
 
 /// The same for a plan of robots that have size: discs of the radii that it says are followed in
-/// continuous time along its cells and legs, as wayOf() puts them together, from pose to pose;
+/// continuous time along its cells and legs, as RobotWays puts them together, from pose to pose;
 /// where RobotPath::path is filled it has to be that way. No move may be longer than longest_step.
 /// @pre isOnRoadmap(plan); the raster is the geometry's map. @throws Interrupted.
 std::vector<std::string> findDiscViolations(const MultiRobotPlan& plan, const MapGeometry& geometry,

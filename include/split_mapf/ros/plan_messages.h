@@ -27,18 +27,34 @@ PlanStatistics statisticsOf(const PlanReport& report);
 bool isOnRoadmap(const MultiRobotPlan& plan);
 /// What is wrong with a path's steps of legs; empty when nothing is.
 std::string faultOfLegs(const MultiRobotPlan& plan, const RobotPath& path);
-/// Where a robot is at each step: its cells' centres, and before and behind them, on a planning
-/// graph, its legs from and to its exact poses. @pre the path has cells, they lie in the plan's
-/// grid, and nothing is wrong with its legs.
-std::vector<geometry_msgs::Point> wayOf(const MultiRobotPlan& plan, std::size_t robot,
-                                        const MapGeometry& geometry);
+/// What is wrong with the ways of all robots together: each with a leg to its goal waits for the
+/// longest path, so a short message can stand for ways that no memory holds. More points than a
+/// plan of kMostPlanBytes has cells are at fault. Empty when nothing is. Cost: O(robots).
+std::string faultOfWays(const MultiRobotPlan& plan);
+
+/// Where the robots of a plan are at each step. @pre the paths have cells, they lie in the grid of
+/// the geometry, nothing is wrong with their legs, and the plan outlives this object.
+class RobotWays {
+ public:
+  RobotWays(const MultiRobotPlan& plan, MapGeometry geometry);
+
+  const MultiRobotPlan& plan() const { return plan_; }
+  const MapGeometry& geometry() const { return geometry_; }
+  /// A robot's cells' centres, and before and behind them, on a planning graph, its legs from and
+  /// to its exact poses.
+  std::vector<geometry_msgs::Point> of(std::size_t robot) const;
+
+ private:
+  const MultiRobotPlan& plan_;
+  MapGeometry geometry_;
+  std::size_t longest_path_;  // [cells]
+};
 
 /// One pose a time step, at the cell's centre, stamped plan.header.stamp + k * step_duration. The
 /// heading is that of the motion: of the next move, after the last move of the last one; a robot
 /// that never moves heads along the map's x axis. Robots that have size begin and end with the
-/// headings of their start and goal, where these have one. @pre the path's cells lie in the plan's
-/// grid.
-nav_msgs::Path posesOf(const MultiRobotPlan& plan, std::size_t robot);
+/// headings of their start and goal, where these have one.
+nav_msgs::Path posesOf(const RobotWays& ways, std::size_t robot);
 /// Fills RobotPath::path of every robot. @throws Interrupted when the deadline has expired; it is
 /// looked at once in some thousand poses.
 void fillPoses(MultiRobotPlan& plan, const Deadline& deadline = {});
