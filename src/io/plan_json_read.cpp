@@ -81,13 +81,31 @@ Cell cellOf(const Json& value, const Place& place) {
   return {coordinateOf(value[0], place, "x"), coordinateOf(value[1], place, "y")};
 }
 
-double lengthOf(const std::string& path, const Json& document, const char* key) {
-  const auto value = document.find(key);
-  if (value == document.end()) return 0;
-  if (!value->is_number() || !(value->get<double>() >= 0)) {
-    fail(path, std::string(key) + ": read " + shown(*value) + ", expected a number of 0 or more");
+double lengthOf(const Json& value, const std::string& path, const std::string& what) {
+  if (!value.is_number() || !(value.get<double>() >= 0)) {
+    fail(path, what + ": read " + shown(value) + ", expected a number of 0 or more");
   }
-  return value->get<double>();
+  return value.get<double>();
+}
+
+double lengthAt(const std::string& path, const Json& document, const char* key) {
+  const auto value = document.find(key);
+  return value == document.end() ? 0 : lengthOf(*value, path, key);
+}
+
+std::vector<double> radiiOf(const std::string& path, const Json& document, std::size_t robots) {
+  const auto list = document.find("radii");
+  if (list == document.end()) return {};
+  if (!list->is_array()) fail(path, "radii: read " + shown(*list) + ", expected a list of numbers");
+  if (list->size() != robots) {
+    fail(path, "radii: read " + counted(list->size(), "number") + ", expected " +
+                   std::to_string(robots) + ", as many as there are robots in 'poses'");
+  }
+  std::vector<double> radii;
+  for (const Json& value : *list) {
+    radii.push_back(lengthOf(value, path, "radii, robot " + std::to_string(radii.size())));
+  }
+  return radii;
 }
 
 MapPoint pointOf(const Json& value, const std::string& path, std::size_t robot, std::size_t step) {
@@ -103,8 +121,8 @@ MapPoint pointOf(const Json& value, const std::string& path, std::size_t robot, 
 DiscClaims readDiscPlanJson(const std::string& path) {
   const Json document = parse(path, readFile(path));
   DiscClaims claims;
-  claims.robot_radius_m = lengthOf(path, document, "robot_radius");
-  claims.clearance_m = lengthOf(path, document, "clearance");
+  claims.robot_radius_m = lengthAt(path, document, "robot_radius");
+  claims.clearance_m = lengthAt(path, document, "clearance");
   const auto lists = document.find("poses");
   if (lists == document.end() || !lists->is_array()) {
     fail(path, "read no list 'poses', expected the plan of robots that have size");
@@ -118,6 +136,7 @@ DiscClaims readDiscPlanJson(const std::string& path) {
     std::vector<MapPoint>& poses = claims.poses.emplace_back();
     for (const Json& point : list) poses.push_back(pointOf(point, path, robot, poses.size()));
   }
+  claims.radius_m = radiiOf(path, document, claims.poses.size());
   return claims;
 }
 

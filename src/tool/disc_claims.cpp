@@ -37,8 +37,11 @@ ClaimedDiscs readClaimedDiscs(const CommandLine& line) {
   ClaimedDiscs claimed;
   claimed.files = readDiscFiles(line.text("map"), line.text("scen"),
                                 static_cast<std::uint32_t>(claims.poses.size()), options);
-  for (const RobotPoses& robot : claimed.files.task.robots) {
-    claimed.discs.radius_m.push_back(robot.radius_m);
+  for (std::size_t i = 0; i < claims.poses.size(); ++i) {
+    const bool only_plan_says = !line.has("robot-radius") && !claimed.files.robots[i].radius_m;
+    claimed.discs.radius_m.push_back(only_plan_says && !claims.radius_m.empty()
+                                         ? claims.radius_m[i]
+                                         : claimed.files.task.robots[i].radius_m);
   }
   claimed.discs.clearance_m = roadmap.clearance_m;
   for (const std::vector<MapPoint>& poses : claims.poses) {

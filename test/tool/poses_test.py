@@ -100,6 +100,23 @@ class PosesTest(CommandTest):
         self.assertGreaterEqual(self.least_gap(*result["poses"]), 0.5 - 1e-6)
         self.validate(0)
 
+    def test_radii_that_only_the_plan_says_were_ignored(self):
+        self.write_two_rooms(door=17)
+        self.write("poses.yaml", "robots:\n"
+                   "- {id: medium, start: [0.5, 0.5, 0], goal: [6.8, 4.15, 0]}\n"
+                   "- {id: large, start: [6, 3, 0], goal: [1, 1, 0], radius: 0.4}\n")
+        self.plan(0, "--snap-distance", 2)
+        plan = self.read_json("plan.json")
+        self.assertEqual((plan["robot_radius"], plan["radii"]), (0.4, [0.3, 0.4]))
+        self.validate(0)
+        self.validate(8, "--robot-radius", 0.4)
+        for radii, expected in (([0.3], "radii: read 1 number, expected 2"),
+                                ([0.3, -1], "radii, robot 1: read '-1'"),
+                                (7, "radii: read '7', expected a list")):
+            self.write("plan.json", json.dumps({**plan, "radii": radii}))
+            self.expect_refusal(expected, "validate", "--map", "rooms.yaml", "--scen",
+                                "poses.yaml", "--plan", "plan.json")
+
     def test_cells_of_a_scen_are_poses_in_their_middle(self):
         self.write_two_rooms()
         self.write("poses.scen", "version 1\n0 rooms 143 90 20 20 120 60 0\n")

@@ -57,10 +57,12 @@ void writePlanJson(const std::string& path, const Grid& grid, const PlanReport& 
 struct DiscClaims {
   double robot_radius_m = 0;
   double clearance_m = 0;
+  std::vector<double> radius_m;  ///< a robot; empty where the file has no `radii`
   std::vector<std::vector<MapPoint>> poses;
 };
 /// Reads it. @throws InputError as readPlanJson(), and "path: ..." for a missing `poses`, a point
-/// that is no pair of numbers, and a radius or clearance that is no number of 0 or more.
+/// that is no pair of numbers, a radius or clearance that is no number of 0 or more, and another
+/// number of `radii` than of `poses`.
 DiscClaims readDiscPlanJson(const std::string& path);
 
 /// Reads the `paths` of such a file; the other fields are left alone. What the paths claim is not
