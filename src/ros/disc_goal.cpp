@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
 #include "split_mapf/ros/orientation.h"
 #include "split_mapf/ros/outcome.h"
@@ -120,12 +121,18 @@ bool asksForRoadmap(const GoalOptions& options, const std::vector<RobotTask>& ta
          std::abs(options.cell_size_m - resolution_m) > 1e-6 * resolution_m;
 }
 
+void requireNoGraphOptions(const PlanOptions& asked) {
+  const bool passages = asked.passages != PlanOptions::PASSAGES_DEFAULT;
+  if (!passages && asked.snap_distance == 0) return;
+  throw OptionError(std::string(passages ? "passages" : "snap_distance") +
+                    " needs robots that have size: robot_radius, RobotTask.radius or cell_size");
+}
+
 PlacedDiscs placeDiscs(const std::vector<RobotTask>& tasks, const nav_msgs::OccupancyGrid& map,
                        const GoalOptions& options, const PoseTransform& transform,
                        const Deadline& deadline, const char*& doing) {
   MapGeometry geometry(map.info, map.header.frame_id);
-  ObstacleRaster raster = makeRaster(map, options.occupancy, deadline);
-  freeSpecks(raster, options.ignore_specks);
+  ObstacleRaster raster = makeRaster(map, options.occupancy, options.ignore_specks, deadline);
   doing = "while the robots were being placed";
   DiscReader discs(tasks, geometry, transform);
   DiscTask task;

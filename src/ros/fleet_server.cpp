@@ -24,8 +24,9 @@ namespace {
 constexpr double kTickSec = 0.1;
 constexpr std::uint32_t kQueue = 20000;  // messages: two seconds of a thousand robots
 
-std::shared_ptr<const nav_msgs::OccupancyGrid> latestMap(const MapSource& maps) {
-  return maps.choose(std::make_shared<const nav_msgs::OccupancyGrid>());
+PlanningGrid latestGrid(const MapSource& maps, const GoalOptions& options) {
+  const auto map = maps.choose(std::make_shared<const nav_msgs::OccupancyGrid>());
+  return makePlanningGrid(*map, options.occupancy, options.ignore_specks);
 }
 
 FaultList listOf(std::vector<RobotFault> faults) {
@@ -145,7 +146,7 @@ FleetServer::Waiting FleetServer::check(const Goal& goal) const {
                     "the plan is on a planning graph, for robots that have size; only plans whose "
                     "moves go to one of four neighbouring cells are executed yet");
   }
-  PlanningGrid grid = makePlanningGrid(*latestMap(maps_), options_.server.goal.occupancy);
+  PlanningGrid grid = latestGrid(maps_, options_.server.goal);
   const std::vector<std::string> wrong = findViolations(plan, grid);
   if (!wrong.empty()) {
     const nav_msgs::MapMetaData& map = grid.geometry.info();
@@ -240,7 +241,7 @@ void FleetServer::takeUpAgain(double now) {
       kept_may_exist_ = false;
       return;
     }
-    PlanningGrid grid = makePlanningGrid(*latestMap(maps_), options_.server.goal.occupancy);
+    PlanningGrid grid = latestGrid(maps_, options_.server.goal);
     kept_may_exist_ = false;
     fleet_ = std::make_unique<FleetExecution>(grid.grid, *kept, options_.fleet, now);
     grid_ = std::move(grid);

@@ -120,7 +120,8 @@ PreparedGoal GoalPlanner::prepareUntil(const boost::shared_ptr<const PlanPathsGo
         placeDiscs(goal->robots, *map, options, transformer_.forGoal(deadline), deadline, doing);
     return prepareDiscs(options, std::move(discs));
   }
-  PlanningGrid grid = makePlanningGrid(*map, options.occupancy, deadline);
+  requireNoGraphOptions(goal->options);
+  PlanningGrid grid = makePlanningGrid(*map, options.occupancy, options.ignore_specks, deadline);
   doing = "while the robots were being placed";
   PlacedRobots robots = placeRobots(goal->robots, grid, *map, transformer_.forGoal(deadline));
   if (options_.publish_paths) distinctRosNames(robots.ids);

@@ -66,15 +66,17 @@ bool PlanServices::validatePlan(ValidatePlan::Request& request,
   try {
     // The request outlives this call, so nothing is to be deleted.
     const std::shared_ptr<const nav_msgs::OccupancyGrid> sent(&request.map, [](const void*) {});
-    const Deadline deadline(options_.goal.plan.time_limit_sec, stop_);
+    const GoalOptions& asked = options_.goal;
+    const Deadline deadline(asked.plan.time_limit_sec, stop_);
     const std::shared_ptr<const nav_msgs::OccupancyGrid> map = maps_.choose(sent);
     if (isOnRoadmap(request.plan)) {
       const MapGeometry geometry(map->info, map->header.frame_id);
-      ObstacleRaster raster = makeRaster(*map, options_.goal.occupancy, deadline);
-      freeSpecks(raster, options_.goal.ignore_specks);
+      const ObstacleRaster raster =
+          makeRaster(*map, asked.occupancy, asked.ignore_specks, deadline);
       response.violations = findDiscViolations(request.plan, geometry, raster, deadline);
     } else {
-      const PlanningGrid grid = makePlanningGrid(*map, options_.goal.occupancy, deadline);
+      const PlanningGrid grid =
+          makePlanningGrid(*map, asked.occupancy, asked.ignore_specks, deadline);
       response.violations = findViolations(request.plan, grid);
     }
   } catch (const Interrupted&) {
@@ -94,7 +96,8 @@ bool PlanServices::checkSolvable(CheckSolvable::Request& request,
     const auto goal = boost::make_shared<PlanPathsGoal>();
     goal->map = std::move(request.map);
     goal->robots = std::move(request.robots);
-    const GoalOptions options = goal_planner_.readOptions(request.options);
+    goal->options = request.options;
+    const GoalOptions options = goal_planner_.readOptions(goal->options);
     const Deadline deadline(options.plan.time_limit_sec, stop_);
     const PreparedGoal prepared = goal_planner_.prepare(goal, options, deadline);
     const SolvabilityVerdict verdict = split_mapf::checkSolvable(prepared.instance, deadline);

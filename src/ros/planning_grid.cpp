@@ -157,9 +157,16 @@ MapFrame frameOf(const MapGeometry& geometry) {
 }
 
 PlanningGrid makePlanningGrid(const nav_msgs::OccupancyGrid& map, const OccupancyRule& rule,
-                              const Deadline& deadline) {
+                              std::uint32_t ignore_specks, const Deadline& deadline) {
   MapGeometry geometry(map.info, map.header.frame_id);
-  const std::vector<bool> free = freeCellsOf(map, rule, deadline);
+  std::vector<bool> free;
+  if (ignore_specks == 0) {
+    free = freeCellsOf(map, rule, deadline);
+  } else {
+    const ObstacleRaster raster = makeRaster(map, rule, ignore_specks, deadline);
+    free.resize(raster.blocked.size());
+    for (std::size_t i = 0; i < free.size(); ++i) free[i] = raster.blocked[i] == 0;
+  }
   try {
     return {std::make_shared<const Grid>(map.info.width, map.info.height, free, deadline),
             geometry};
@@ -169,10 +176,12 @@ PlanningGrid makePlanningGrid(const nav_msgs::OccupancyGrid& map, const Occupanc
 }
 
 ObstacleRaster makeRaster(const nav_msgs::OccupancyGrid& map, const OccupancyRule& rule,
-                          const Deadline& deadline) {
+                          std::uint32_t ignore_specks, const Deadline& deadline) {
   const std::vector<bool> free = freeCellsOf(map, rule, deadline);
   try {
-    return rasterOf(map.info.width, map.info.height, free, map.info.resolution);
+    ObstacleRaster raster = rasterOf(map.info.width, map.info.height, free, map.info.resolution);
+    freeSpecks(raster, ignore_specks);
+    return raster;
   } catch (const InputError& error) {
     refuse(error.what());
   }

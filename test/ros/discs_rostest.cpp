@@ -92,5 +92,36 @@ TEST_F(DiscsThroughTheNode, WithoutSizeNothingChanges) {
   }
 }
 
+TEST_F(DiscsThroughTheNode, SpecksWereObstaclesToRobotsWithoutSize) {
+  // The node's own ignore_specks is 1.
+  PlanPathsGoal goal;
+  goal.map = test::mapFromAscii({".....", "..#..", "....."});
+  goal.robots = {taskBetween("a", poseAt(0.5, 1.5), poseAt(2.5, 1.5))};
+  const PlanPathsResult result = runGoal(client_, goal).result();
+  ASSERT_EQ(result.outcome, PlanOutcome::SUCCEEDED) << result.message;
+  ValidatePlan check;
+  check.request.map = goal.map;
+  check.request.plan = result.plan;
+  ASSERT_TRUE(ros::service::call("split_mapf/validate_plan", check));
+  EXPECT_TRUE(check.response.valid) << check.response.violations.front();
+  goal.options.ignore_specks = -1;
+  EXPECT_EQ(runGoal(client_, goal).result().outcome, PlanOutcome::BLOCKED_CELL);
+}
+
+TEST_F(DiscsThroughTheNode, OptionsOfGraphsWereIgnoredWithoutSize) {
+  PlanPathsGoal goal = test::smallGoal();
+  goal.options.snap_distance = 0.5;
+  PlanPathsResult result = runGoal(client_, goal).result();
+  EXPECT_EQ(result.outcome, PlanOutcome::INVALID_OPTION);
+  EXPECT_NE(result.message.find("snap_distance needs robots that have size"), std::string::npos)
+      << result.message;
+  CheckSolvable check;
+  check.request.map = goal.map;
+  check.request.robots = goal.robots;
+  check.request.options.passages = PlanOptions::PASSAGES_OFF;
+  ASSERT_TRUE(ros::service::call("split_mapf/check_solvable", check));
+  EXPECT_EQ(check.response.outcome, PlanOutcome::INVALID_OPTION) << check.response.reason;
+}
+
 }  // namespace
 }  // namespace split_mapf

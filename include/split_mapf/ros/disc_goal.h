@@ -38,6 +38,10 @@ struct PlacedDiscs {
 bool asksForRoadmap(const GoalOptions& options, const std::vector<RobotTask>& tasks,
                     double resolution_m);
 
+/// What a goal says of planning graphs, where none is made, is a mistake; what the server's
+/// parameters say is for other goals. @throws OptionError naming the option.
+void requireNoGraphOptions(const PlanOptions& asked);
+
 /// Builds the planning graph of a goal's map and brings its robots onto it.
 /// @param doing  is set to what a deadline would interrupt.
 /// @throws GoalError: INVALID_MAP as makePlanningGrid(); or every robot at fault, in the goal's

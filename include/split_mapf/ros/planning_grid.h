@@ -67,14 +67,15 @@ struct PlanningGrid {
 /// Where the map lies, for what counts in metres from its first cell.
 MapFrame frameOf(const MapGeometry& geometry);
 
-/// Reads a map: one map cell is one planning cell. @throws GoalError (INVALID_MAP) as MapGeometry,
+/// Reads a map: one map cell is one planning cell.
+/// @param ignore_specks  as freeSpecks() takes it. @throws GoalError (INVALID_MAP) as MapGeometry,
 /// and for data of another size; OptionError for a bad rule; Interrupted. Cost: O(cells).
 PlanningGrid makePlanningGrid(const nav_msgs::OccupancyGrid& map, const OccupancyRule& rule,
-                              const Deadline& deadline = {});
+                              std::uint32_t ignore_specks = 0, const Deadline& deadline = {});
 
 /// The obstacles of a map. @throws as makePlanningGrid().
 ObstacleRaster makeRaster(const nav_msgs::OccupancyGrid& map, const OccupancyRule& rule,
-                          const Deadline& deadline = {});
+                          std::uint32_t ignore_specks = 0, const Deadline& deadline = {});
 
 /// The planning grid as a map: 0 = free, 100 = blocked. Of robots that have size: free is where the
 /// centre of the largest may stand.
