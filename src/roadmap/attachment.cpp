@@ -22,6 +22,8 @@ using roadmap::VertexFinder;
 constexpr double kTouchM = 1e-6;
 // Robots without size may not stand inside an obstacle either [cells].
 constexpr double kLeastNeed = 1e-3;
+// From a place in a cell to the cell's centre at most, rounded up [cells].
+constexpr double kHalfDiagonal = 0.7072;
 
 /// All starts, or all goals.
 struct Side {
@@ -89,6 +91,11 @@ class Attacher {
     return {p.x / raster_.resolution_m - 0.5, p.y / raster_.resolution_m - 0.5};
   }
 
+  bool isOnMap(Place pose) const {
+    return pose.x >= -0.5 && pose.y >= -0.5 && pose.x <= raster_.width - 0.5 &&
+           pose.y <= raster_.height - 0.5;
+  }
+
   /// Starts may be too near to an obstacle, where a leg leads away from it.
   void findOptions(Side& side) {
     side.options.resize(side.poses.size());
@@ -96,8 +103,7 @@ class Attacher {
     for (std::uint32_t robot = 0; robot < side.poses.size(); ++robot) {
       deadline_.require();
       const Place pose = toCells(side.poses[robot]);
-      if (!(pose.x >= -0.5 && pose.y >= -0.5 && pose.x <= raster_.width - 0.5 &&
-            pose.y <= raster_.height - 0.5)) {
+      if (!isOnMap(pose)) {
         report(robot, AttachmentFaultKind::kOutsideMap, side);
         continue;
       }
@@ -226,6 +232,14 @@ class Attacher {
     return false;
   }
 
+  /// What a robot keeps from obstacles wherever it goes [m]: its need, or what its start has.
+  double leastOnTheWay(std::uint32_t robot) const {
+    const double need = std::max(kLeastNeed, needOf(robot) / raster_.resolution_m);
+    const Place start = toCells(robots_[robot].start);
+    if (!isOnMap(start)) return 0;
+    return leastDistance(raster_, start, start, need) * raster_.resolution_m;
+  }
+
   void addBottlenecks() {
     std::vector<std::pair<MapPoint, MapPoint>> ways;
     std::vector<AttachmentFault*> of_ways;
@@ -235,6 +249,7 @@ class Attacher {
           fault.kind != AttachmentFaultKind::kOtherPiece) {
         continue;
       }
+      fault.proof_below_m = leastOnTheWay(fault.robot) - kHalfDiagonal * raster_.resolution_m;
       of_ways.push_back(&fault);
       ways.emplace_back(robots_[fault.robot].start, robots_[fault.robot].goal);
     }

@@ -53,7 +53,7 @@ bool isCutOff(const AttachmentFault& fault) {
       fault.kind != AttachmentFaultKind::kOtherPiece) {
     return false;
   }
-  return !fault.bottleneck || fault.bottleneck->distance_m < fault.needed_m;
+  return !fault.bottleneck || fault.bottleneck->distance_m < fault.proof_below_m;
 }
 
 std::string explain(const AttachmentFault& fault, const std::vector<std::string>& names,

@@ -194,21 +194,32 @@ TEST(Attachment, SaysWhereNoEdgesLead) {
             "start; no free way leads from its start to its goal, however narrow");
 }
 
-TEST(Attachment, NamesTheBottleneckOfTheWidestWay) {
-  // Two rooms with doors of 10 and 11 cells; 12 are needed.
+/// The fault of a robot of 0.3 m between two rooms whose wall has doors of so many cells of 5 cm.
+AttachmentFault faultBetweenRooms(std::size_t lower_door, std::size_t upper_door, MapPoint start) {
   std::vector<bool> free(std::size_t{200} * 200, true);
   for (std::size_t y = 0; y < 200; ++y) {
-    free[y * 200 + 100] = (y >= 20 && y < 30) || (y >= 150 && y < 161);
+    free[y * 200 + 100] = (y >= 20 && y < 20 + lower_door) || (y >= 150 && y < 150 + upper_door);
   }
   const World world = worldOf(rasterOf(200, 200, free, kResolutionM));
-  const Attachment attachment = attachRobots(world.raster, world.roadmap, {{{2, 2}, {8, 2}}});
-  ASSERT_EQ(attachment.faults.size(), 1U);
-  EXPECT_TRUE(isCutOff(attachment.faults[0]));
-  EXPECT_NE(textOf(attachment.faults[0])
-                .find("the widest way from its start to its goal has 0.275 m to an obstacle at "
+  const Attachment attachment = attachRobots(world.raster, world.roadmap, {{start, {8, 2}}});
+  EXPECT_EQ(attachment.faults.size(), 1U);
+  return attachment.faults.empty() ? AttachmentFault() : attachment.faults.front();
+}
+
+TEST(Attachment, NamesTheBottleneckOfTheWidestWay) {
+  // The graph needs 13 cells, so that a centre of a cell keeps 0.3 m.
+  const std::string text = textOf(faultBetweenRooms(10, 11, {2, 2}));
+  EXPECT_NE(text.find("the widest way from its start to its goal has 0.275 m to an obstacle at "
                       "(5.025, 2.225), 0.3 m needed"),
             std::string::npos)
-      << textOf(attachment.faults[0]);
+      << text;
+}
+
+TEST(Attachment, ClaimedProofsOfDoorsThroughWhichADiscFits) {
+  EXPECT_FALSE(isCutOff(faultBetweenRooms(5, 12, {2, 2}))) << "0.6 m wide, as the robot";
+  EXPECT_TRUE(isCutOff(faultBetweenRooms(9, 10, {2, 2})));
+  // Who begins 0.2 m from an obstacle need not keep more before there is more room.
+  EXPECT_FALSE(isCutOff(faultBetweenRooms(5, 10, {0.2, 5})));
 }
 
 TEST(Attachment, ASmallRobotStandsWhereTheLargestCouldNot) {

@@ -44,10 +44,14 @@ struct AttachmentFault {
   double ways_need_m = 0;   ///< that edges keep from obstacles, for the largest robot
   /// Of kNoVertex and kOtherPiece, as findBottlenecks() finds it.
   std::optional<Bottleneck> bottleneck;
+  /// A narrower bottleneck proves that no way is wide enough for this robot. It is found between
+  /// centres of cells, and a disc may pass between them; and a robot that starts nearer to an
+  /// obstacle than it needs may stay as near.
+  double proof_below_m = 0;
 };
 
 /// Whether the fault proves that this robot cannot reach its goal by any graph: its ground itself
-/// is cut in two.
+/// is cut in two. False where a way might be wide enough by less than 0.71 cells of the map.
 bool isCutOff(const AttachmentFault& fault);
 
 /// The fault in one sentence that says distance and need. @param names  of the robots, as the user
