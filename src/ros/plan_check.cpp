@@ -179,10 +179,31 @@ void checkShapes(const MultiRobotPlan& plan, std::vector<std::string>& found) {
   }
 }
 
+bool isSamePlace(const geometry_msgs::Point& a, const geometry_msgs::Point& b) {
+  // What is as near to its vertex as 1e-6 m needs no leg.
+  constexpr double kSamePlaceM = 2e-6;
+  return std::hypot(a.x - b.x, a.y - b.y) <= kSamePlaceM;
+}
+
+/// Without a leg a robot has to stand at the centre of its cell.
+void compareEnds(const RobotPath& path, const std::vector<geometry_msgs::Point>& way,
+                 std::vector<std::string>& found) {
+  const auto compare = [&](const char* end, const geometry_msgs::Point& claimed,
+                           const geometry_msgs::Point& cell) {
+    if (isSamePlace(claimed, cell)) return;
+    const auto text = [](const geometry_msgs::Point& p) {
+      return "(" + numeral(p.x) + ", " + numeral(p.y) + ")";
+    };
+    found.push_back("robot " + quote(path.robot_id) + " has its " + end + " at " + text(claimed) +
+                    ", but no leg between that and its cell's centre, " + text(cell));
+  };
+  compare("start", path.start.position, way.front());
+  compare("goal", path.goal.position, way.back());
+}
+
 /// The poses of a filled path have to be the way that the cells and legs say.
 void comparePoses(const RobotPath& path, const std::vector<geometry_msgs::Point>& way,
                   std::vector<std::string>& found) {
-  constexpr double kSamePlaceM = 1e-6;
   if (path.path.poses.empty()) return;
   const std::string who = "robot " + quote(path.robot_id);
   if (path.path.poses.size() != way.size()) {
@@ -192,7 +213,7 @@ void comparePoses(const RobotPath& path, const std::vector<geometry_msgs::Point>
   }
   for (std::size_t step = 0; step < way.size(); ++step) {
     const geometry_msgs::Point& p = path.path.poses[step].pose.position;
-    if (std::hypot(p.x - way[step].x, p.y - way[step].y) <= kSamePlaceM) continue;
+    if (isSamePlace(p, way[step])) continue;
     found.push_back(who + " has another pose at step " + std::to_string(step) +
                     " than its cells and legs say");
     return;
@@ -237,6 +258,7 @@ std::vector<std::string> findDiscViolations(const MultiRobotPlan& plan, const Ma
   for (std::size_t i = 0; i < plan.paths.size(); ++i) {
     deadline.require();
     const std::vector<geometry_msgs::Point> way = ways.of(i);
+    compareEnds(plan.paths[i], way, found);
     comparePoses(plan.paths[i], way, found);
     Course& course = courses.emplace_back();
     for (const geometry_msgs::Point& p : way) course.push_back(toRaster(frame, {p.x, p.y}));

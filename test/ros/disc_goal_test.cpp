@@ -124,6 +124,13 @@ TEST(DiscGoal, EveryWrongClaimIsFound) {
   plan.longest_step = 9;
   expect("the border of the map", plan);
   plan = good;
+  plan.departure_steps = 0;
+  for (RobotPath& path : plan.paths) path.departure_steps = 0;
+  expect("robot 'b' has its start at (5.3, 1.13), but no leg between", plan);
+  plan = good;
+  plan.paths[0].arrival_steps = 0;
+  expect("robot 'a' has its goal at (5.5, 2.22), but no leg between", plan);
+  plan = good;
   plan.longest_step = 0.1;
   expect("more than longest_step, 0.1 m", plan);
   plan = good;
