@@ -77,6 +77,15 @@ std::string shown(const std::string& text) {
   return out;
 }
 
+bool isUtf8(const std::string& text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = lengthOfCharacter(text, at);
+    if (length == 0) return false;
+    at += length;
+  }
+  return true;
+}
+
 std::string quote(const std::string& text) { return "'" + shown(text) + "'"; }
 
 std::string counted(std::uint64_t number, const std::string& noun, const std::string& plural) {

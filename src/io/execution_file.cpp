@@ -57,6 +57,15 @@ FleetSnapshot::Robot robotOf(const json& from) {
   throw InputError("the execution file '" + path + "' " + what);
 }
 
+/// JSON has no place for names that are no UTF-8.
+std::string textOf(const std::string& path, const json& all) {
+  try {
+    return all.dump();
+  } catch (const json::exception& error) {
+    fail(path, std::string("cannot be written: ") + error.what());
+  }
+}
+
 }  // namespace
 
 void writeExecution(const std::string& path, const FleetSnapshot& snapshot) {
@@ -73,10 +82,11 @@ void writeExecution(const std::string& path, const FleetSnapshot& snapshot) {
                     {"release_ahead", snapshot.release_ahead},
                     {"blocked", std::move(blocked)},
                     {"robots", std::move(robots)}};
+  const std::string text = textOf(path, all);
   const std::string fresh = path + ".new";
   {
     std::ofstream file(fresh, std::ios::binary | std::ios::trunc);
-    file << all.dump() << '\n';
+    file << text << '\n';
     file.flush();
     if (!file) fail(fresh, std::string("cannot be written: ") + std::strerror(errno));
   }
@@ -86,8 +96,10 @@ void writeExecution(const std::string& path, const FleetSnapshot& snapshot) {
 }
 
 std::optional<FleetSnapshot> readExecution(const std::string& path) {
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
-  if (!file) return std::nullopt;
+  if (!file && errno == ENOENT) return std::nullopt;
+  if (!file) fail(path, std::string("cannot be opened: ") + std::strerror(errno));
   try {
     const json all = json::parse(file);
     if (all.at("format") != kFormat) fail(path, "has another format than this version reads");

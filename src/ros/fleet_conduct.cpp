@@ -32,9 +32,8 @@ bool isFinite(const geometry_msgs::Point& point) {
 void FleetServer::takeProgress(const RobotProgress& message) {
   const Lock lock(mutex_);
   ++counts_.reports;
-  if (message.robot_id.empty() || !faultOfName(message.robot_id).empty()) {
-    return countRefused(message, "its robot_id is empty or too long");
-  }
+  const std::string fault = faultOfRobotId(message.robot_id);
+  if (!fault.empty()) return countRefused(message, "its robot_id " + fault);
   if (!message.pose.header.frame_id.empty() && !isFinite(message.pose.pose.position)) {
     return countRefused(message, "its pose is not finite");
   }

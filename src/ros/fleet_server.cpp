@@ -17,6 +17,7 @@
 #include "split_mapf/ros/fleet_messages.h"
 #include "split_mapf/ros/plan_check.h"
 #include "split_mapf/ros/plan_messages.h"
+#include "split_mapf/ros/text_limits.h"
 
 namespace split_mapf {
 namespace {
@@ -158,7 +159,14 @@ FleetServer::Waiting FleetServer::check(const Goal& goal) const {
                     "the plan cannot be executed: " + wrong.front() + more);
   }
   std::vector<std::string> ids;
-  for (const RobotPath& path : plan.paths) ids.push_back(path.robot_id);
+  for (const RobotPath& path : plan.paths) {
+    const std::string fault = faultOfRobotId(path.robot_id);
+    if (!fault.empty()) {
+      throw GoalError(Outcome::kInvalidOption,
+                      "the robot_id " + quote(path.robot_id) + " of a path " + fault);
+    }
+    ids.push_back(path.robot_id);
+  }
   distinctRosNames(ids);
   FleetOptions options = options_.fleet;
   options.step_sec = plan.step_duration;

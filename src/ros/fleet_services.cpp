@@ -63,9 +63,8 @@ bool FleetServer::addRobot(AddRobot::Request& request, AddRobot::Response& respo
 /// @return why not; empty: done.
 std::string FleetServer::tryToAdd(const RobotTask& task) {
   if (!fleet_) return "no plan is being executed";
-  if (task.robot_id.empty() || !faultOfName(task.robot_id).empty()) {
-    return "its robot_id is empty or too long";
-  }
+  const std::string fault = faultOfRobotId(task.robot_id);
+  if (!fault.empty()) return "its robot_id " + fault;
   const auto known = known_.find(task.robot_id);
   const bool reports =
       known != known_.end() && now() - known->second.heard <= options_.fleet.progress_timeout_sec;

@@ -10,4 +10,9 @@ std::string faultOfName(const std::string& name) {
          " are possible";
 }
 
+std::string faultOfRobotId(const std::string& id) {
+  if (id.empty()) return "is empty";
+  return isUtf8(id) ? faultOfName(id) : "is no UTF-8";
+}
+
 }  // namespace split_mapf

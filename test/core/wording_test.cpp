@@ -45,6 +45,14 @@ TEST(Shown, EscapesBytesThatAreNoUtf8) {
   EXPECT_EQ(shown(std::string(100, '\xff')).size(), 4U * 19 + 3);
 }
 
+TEST(IsUtf8, LooksAtEveryByte) {
+  EXPECT_TRUE(isUtf8(""));
+  EXPECT_TRUE(isUtf8("M\xc3\xbcller"));
+  EXPECT_FALSE(isUtf8("M\xfcller"));
+  EXPECT_FALSE(isUtf8("r\xc3"));
+  EXPECT_FALSE(isUtf8(std::string(1000, 'a') + "\xff"));
+}
+
 TEST(Counted, AgreesWithTheNumber) {
   EXPECT_EQ(counted(0, "robot"), "0 robots");
   EXPECT_EQ(counted(1, "robot"), "1 robot");

@@ -62,5 +62,17 @@ TEST_F(ExecutionFile, NamesWhatIsWrong) {
   EXPECT_THROW(writeExecution("/nowhere/fleet.json", {}), InputError);
 }
 
+TEST_F(ExecutionFile, RefusesToWriteAnIdThatIsNoUtf8) {
+  const std::string path = pathOf("fleet.json");
+  FleetSnapshot snapshot;
+  snapshot.robots.push_back({"\xff", {0, 0}, 1, false, 1, {{0, {0, 0}, 0}}});
+  EXPECT_THROW(writeExecution(path, snapshot), InputError);
+  EXPECT_FALSE(readExecution(path)) << "nothing is left behind";
+}
+
+TEST_F(ExecutionFile, DoesNotTakeAFileThatItCannotOpenForNone) {
+  EXPECT_THROW(readExecution(file("plain", "") + "/fleet.json"), InputError);
+}
+
 }  // namespace
 }  // namespace split_mapf

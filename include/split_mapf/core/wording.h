@@ -17,7 +17,9 @@ constexpr std::size_t kMostShown = 80;
 /// characters, invisible marks of direction and bytes that are no UTF-8 become \xNN.
 /// Cost: O(kMostShown), however long the text.
 std::string shown(const std::string& text);
-/// The same in single quotes.
+/// Whether every byte belongs to a character of UTF-8. Cost: O(bytes).
+bool isUtf8(const std::string& text);
+/// The same as shown() in single quotes.
 std::string quote(const std::string& text);
 
 /// "1 robot", "2 robots". @param plural  the noun's, where adding an s does not make it.

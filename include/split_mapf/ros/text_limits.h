@@ -11,5 +11,8 @@ constexpr std::size_t kMostNameBytes = 256;
 
 /// "has 1000000 bytes; at most 256 are possible" for a name that is too long; empty otherwise.
 std::string faultOfName(const std::string& name);
+/// The same of the id of a robot that is to drive: it has to be UTF-8 (it is kept as JSON), and may
+/// not be empty either: "is empty".
+std::string faultOfRobotId(const std::string& id);
 
 }  // namespace split_mapf
