@@ -123,7 +123,7 @@ void FleetExecution::grow(double now) {
   }
   const Cut before = promised_;
   PromiseRule rule{options_.release_ahead, options_.joint_rings, &closed_, &held_back};
-  if (asked_) rule.limit = &question_cut_;
+  if (isAwaited()) rule.limit = &question_cut_;
   growPromises(graph_, rule, promised_);
   const Precedence& order = graph_.precedence();
   for (std::uint32_t robot = 0; robot < robots_.size(); ++robot) {
@@ -193,7 +193,7 @@ std::string FleetExecution::add(const std::string& id, Vertex at, Vertex goal) {
     }
   }
   // While a question is out robots may be promised cells up to its cut.
-  for (std::uint32_t robot = 0; asked_ && robot < robots_.size(); ++robot) {
+  for (std::uint32_t robot = 0; isAwaited() && robot < robots_.size(); ++robot) {
     for (VisitId v = promised_[robot]; v <= question_cut_[robot]; ++v) {
       if (order[v].vertex == at) return "its cell may be promised to another robot; try again";
     }

@@ -254,6 +254,7 @@ std::string FleetExecution::trouble() const {
 bool FleetExecution::isFinished() const {
   if (restoring_ || asked_) return false;
   if (cancelled_) return !anyMayMove();
+  if (robots_.empty() && joiners_.empty()) return true;
   if (std::max(failed_, stalls_) >= kTriesForAPlan && !anyMayMove()) return true;
   if (incident_ || !joiners_.empty()) return false;
   for (std::uint32_t robot = 0; robot < robots_.size(); ++robot) {

@@ -25,7 +25,8 @@ std::optional<FleetQuestion> FleetExecution::ask(double now) {
     goes_on = goes_on || (takesPart(robot) && !graph_.isDone(robot));
   }
   if (incident_) {
-    if (now < next_anew_ || robots_.empty()) return std::nullopt;
+    const bool is_empty = robots_.empty() && joiners_.empty();
+    if (now < next_anew_ || is_empty) return std::nullopt;
     return makeQuestion(true);
   }
   if (!goes_on || now < next_replan_) return std::nullopt;
@@ -74,6 +75,7 @@ FleetQuestion FleetExecution::makeQuestion(bool anew) {
     if (takes_part[robot]) blocked[graph_.precedence()[question_cut_[robot]].vertex] = false;
   }
   asked_ = true;
+  question_version_ = version_;
   if (anew) incident_ = false;
   ReplanBudget budget = options_.budget;
   budget.seed += questions_++;

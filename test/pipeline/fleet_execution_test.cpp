@@ -233,6 +233,34 @@ TEST(FleetExecution, LetsRobotsGoAndJoin) {
   EXPECT_EQ(small.fleet->route(1, 100).back().vertex, 4U);
 }
 
+TEST(FleetExecution, ForgetsTheCutOfAQuestionWhenARobotLeaves) {
+  Small small({"......", "......"}, {{6}, {0, 1, 2, 3, 4, 5}, {7}});
+  ASSERT_TRUE(small.fleet->ask(0));
+  small.fleet->remove(0);
+  EXPECT_EQ(small.fleet->add("new", 6, 11), "") << "where the robot that left stood";
+  EXPECT_EQ(small.fleet->report(0, {2, 0, DriveStatus::kOk, {}}, 1), ReportFate::kTaken);
+  small.fleet->advance(1);
+  EXPECT_EQ(small.fleet->status(1)[0].released_until, 4U) << "its question is out of date";
+}
+
+TEST(FleetExecution, EndsWhenItsLastRobotLeaves) {
+  Small small({"....", "...."}, {{0, 1, 2, 3}});
+  small.fleet->report(0, {0, 0, DriveStatus::kFault, {}}, 1);
+  small.fleet->remove(0);
+  EXPECT_FALSE(small.fleet->ask(1));
+  EXPECT_TRUE(small.fleet->isFinished());
+}
+
+TEST(FleetExecution, TakesRobotsInWhenAllOthersHaveLeft) {
+  Small small({"....", "...."}, {{0, 1, 2, 3}});
+  small.fleet->remove(0);
+  EXPECT_EQ(small.fleet->add("new", 7, 4), "");
+  EXPECT_FALSE(small.fleet->isFinished());
+  small.answer(1);
+  ASSERT_EQ(small.fleet->robots(), 1U);
+  EXPECT_EQ(small.fleet->route(0, 100).back().vertex, 4U);
+}
+
 TEST(FleetExecution, FindsSilentRobotsAndTakesThemBack) {
   Small small({"....", "...."}, {{0, 1, 2, 3}, {4, 5, 6, 7}});
   small.fleet->report(1, {0, 0, DriveStatus::kOk, {}}, 3);

@@ -197,6 +197,8 @@ class FleetExecution {
   void grow(double now);
 
   // Replans.
+  /// Whether a question is out whose answer will be taken: nobody has left since.
+  bool isAwaited() const { return asked_ && question_version_ == version_; }
   FleetQuestion makeQuestion(bool anew);
   void adopt(ExecutionGraph next, double now);
   bool renumber(std::uint32_t robot, const ExecutionGraph& next, VisitId cut,
@@ -225,6 +227,7 @@ class FleetExecution {
   bool incident_ = false;  ///< the rest has to be planned anew
   /// The question that is out: its cut, where robots were, and who stood without a promise.
   bool asked_ = false;
+  std::uint64_t question_version_ = 0;
   Cut question_cut_;
   std::vector<VisitId> question_at_;
   std::vector<bool> question_void_;
