@@ -21,6 +21,12 @@ void requireWithin(double value, const char* name, double least, double most) {
                     numeral(least) + " to " + numeral(most) + " is expected");
 }
 
+FleetOptions validOptions(FleetOptions options, double step_sec) {
+  options.step_sec = step_sec;
+  requireValid(options);
+  return options;
+}
+
 MotionTimes motionOf(const FleetOptions& options) {
   MotionTimes times;
   times.move = kMoveTicks;
@@ -107,15 +113,14 @@ void requireValid(const FleetOptions& options) {
 FleetExecution::FleetExecution(std::shared_ptr<const Grid> grid, std::vector<std::string> ids,
                                const Plan& plan, const FleetOptions& options, double now)
     : grid_(std::move(grid)),
-      options_(options),
-      times_(motionOf(options)),
+      options_(validOptions(options, options.step_sec)),
+      times_(motionOf(options_)),
       graph_(Precedence(plan, grid_->size()), options.release),
       asked_blocked_(grid_->size(), false),
       standing_(std::make_unique<StandingTimes>(static_cast<std::uint32_t>(ids.size()))),
       began_(now),
       observed_(now),
       next_replan_(now) {
-  requireValid(options);
   const Precedence& order = graph_.precedence();
   sequences_.resize(order.size());
   for (std::uint32_t i = 0; i < ids.size(); ++i) {
@@ -138,8 +143,8 @@ FleetExecution::FleetExecution(std::shared_ptr<const Grid> grid, std::vector<std
 FleetExecution::FleetExecution(std::shared_ptr<const Grid> grid, const FleetSnapshot& snapshot,
                                const FleetOptions& options, double now)
     : grid_(std::move(grid)),
-      options_(options),
-      times_(motionOf(options)),
+      options_(validOptions(options, snapshot.step_sec)),
+      times_(motionOf(options_)),
       graph_(orderOf(snapshot, *grid_), snapshot.release),
       asked_blocked_(grid_->size(), false),
       standing_(
@@ -149,8 +154,6 @@ FleetExecution::FleetExecution(std::shared_ptr<const Grid> grid, const FleetSnap
       next_replan_(now),
       restoring_(true),
       restored_ahead_(snapshot.release_ahead) {
-  requireValid(options);
-  options_.step_sec = snapshot.step_sec;
   const Precedence& order = graph_.precedence();
   for (std::uint32_t i = 0; i < snapshot.robots.size(); ++i) {
     const FleetSnapshot::Robot& kept = snapshot.robots[i];

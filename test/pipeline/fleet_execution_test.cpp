@@ -261,6 +261,17 @@ TEST(FleetExecution, TakesRobotsInWhenAllOthersHaveLeft) {
   EXPECT_EQ(small.fleet->route(0, 100).back().vertex, 4U);
 }
 
+TEST(FleetExecution, IsTakenUpAgainWithTheStepOfItsPlan) {
+  Small small({"...."}, {{0, 1, 2, 3}});
+  FleetSnapshot kept = small.fleet->snapshot(0);
+  FleetOptions slow = small.options;
+  slow.turn_sec = 200;  // too much for steps of a second
+  kept.step_sec = 10;
+  EXPECT_NO_THROW(FleetExecution(small.grid, kept, slow, 0));
+  kept.step_sec = 0;
+  EXPECT_THROW(FleetExecution(small.grid, kept, small.options, 0), OptionError);
+}
+
 TEST(FleetExecution, FindsSilentRobotsAndTakesThemBack) {
   Small small({"....", "...."}, {{0, 1, 2, 3}, {4, 5, 6, 7}});
   small.fleet->report(1, {0, 0, DriveStatus::kOk, {}}, 3);

@@ -76,7 +76,8 @@ class FleetExecution {
   FleetExecution(std::shared_ptr<const Grid> grid, std::vector<std::string> ids, const Plan& plan,
                  const FleetOptions& options, double now);
   /// Goes on with an execution whose conductor died: waits until every robot has reported, or was
-  /// silent for too long, then goes on. @throws InputError when it does not fit the grid.
+  /// silent for too long, then goes on. Its step and release are those that were kept.
+  /// @throws OptionError. @throws InputError when it does not fit the grid.
   FleetExecution(std::shared_ptr<const Grid> grid, const FleetSnapshot& snapshot,
                  const FleetOptions& options, double now);
   ~FleetExecution();
