@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kFormat = "split_mapf execution 1";
+constexpr const char* kFormat = "split_mapf execution 2";
 
 json toJson(const FleetSnapshot::Robot& robot) {
   json sequences = json::array();
@@ -26,14 +26,16 @@ json toJson(const FleetSnapshot::Robot& robot) {
     cells.push_back({visit.cell.x, visit.cell.y});
     steps.push_back(visit.step);
   }
-  return {{"id", robot.id},
-          {"goal", {robot.goal.x, robot.goal.y}},
-          {"planned", robot.planned_sec},
-          {"paused", robot.paused},
-          {"next_sequence", robot.next_sequence},
-          {"sequences", std::move(sequences)},
-          {"cells", std::move(cells)},
-          {"steps", std::move(steps)}};
+  json all = {{"id", robot.id},
+              {"goal", {robot.goal.x, robot.goal.y}},
+              {"planned", robot.planned_sec},
+              {"paused", robot.paused},
+              {"next_sequence", robot.next_sequence},
+              {"sequences", std::move(sequences)},
+              {"cells", std::move(cells)},
+              {"steps", std::move(steps)}};
+  if (robot.held_at) all["held_at"] = *robot.held_at;
+  return all;
 }
 
 Cell cellOf(const json& pair) { return {pair.at(0).get<int>(), pair.at(1).get<int>()}; }
@@ -45,6 +47,7 @@ FleetSnapshot::Robot robotOf(const json& from) {
   robot.planned_sec = from.at("planned").get<double>();
   robot.paused = from.at("paused").get<bool>();
   robot.next_sequence = from.at("next_sequence").get<std::uint32_t>();
+  if (from.contains("held_at")) robot.held_at = from.at("held_at").get<std::uint32_t>();
   const json& cells = from.at("cells");
   for (std::size_t i = 0; i < cells.size(); ++i) {
     robot.visits.push_back({from.at("sequences").at(i).get<std::uint32_t>(), cellOf(cells[i]),
@@ -80,6 +83,8 @@ void writeExecution(const std::string& path, const FleetSnapshot& snapshot) {
                     {"step", snapshot.step_sec},
                     {"release", snapshot.release},
                     {"release_ahead", snapshot.release_ahead},
+                    {"paused", snapshot.all_paused},
+                    {"cancelled", snapshot.cancelled},
                     {"blocked", std::move(blocked)},
                     {"robots", std::move(robots)}};
   const std::string text = textOf(path, all);
@@ -111,6 +116,8 @@ std::optional<FleetSnapshot> readExecution(const std::string& path) {
     snapshot.step_sec = all.at("step").get<double>();
     snapshot.release = all.at("release").get<double>();
     snapshot.release_ahead = all.at("release_ahead").get<std::uint32_t>();
+    snapshot.all_paused = all.at("paused").get<bool>();
+    snapshot.cancelled = all.at("cancelled").get<bool>();
     for (const json& cell : all.at("blocked")) snapshot.blocked.push_back(cellOf(cell));
     for (const json& robot : all.at("robots")) snapshot.robots.push_back(robotOf(robot));
     return snapshot;

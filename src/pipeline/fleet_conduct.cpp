@@ -118,8 +118,7 @@ void FleetExecution::grow(double now) {
   std::vector<bool> held_back(robots_.size());
   for (std::uint32_t robot = 0; robot < robots_.size(); ++robot) {
     const Robot& record = robots_[robot];
-    const bool held = all_paused_ || cancelled_ || record.paused || record.void_promise;
-    held_back[robot] = held || !takesPart(robot);
+    held_back[robot] = isHeld(robot) || record.void_promise || !takesPart(robot);
   }
   const Cut before = promised_;
   PromiseRule rule{options_.release_ahead, options_.joint_rings, &closed_, &held_back};

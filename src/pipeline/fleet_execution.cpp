@@ -153,7 +153,9 @@ FleetExecution::FleetExecution(std::shared_ptr<const Grid> grid, const FleetSnap
       observed_(now),
       next_replan_(now),
       restoring_(true),
-      restored_ahead_(snapshot.release_ahead) {
+      restored_ahead_(snapshot.release_ahead),
+      all_paused_(snapshot.all_paused),
+      cancelled_(snapshot.cancelled) {
   const Precedence& order = graph_.precedence();
   for (std::uint32_t i = 0; i < snapshot.robots.size(); ++i) {
     const FleetSnapshot::Robot& kept = snapshot.robots[i];
@@ -163,6 +165,7 @@ FleetExecution::FleetExecution(std::shared_ptr<const Grid> grid, const FleetSnap
     if (robot.goal == kNoVertex) robot.goal = order[order.last(i)].vertex;
     robot.planned_sec = kept.planned_sec;
     robot.paused = kept.paused;
+    robot.held_at = kept.held_at;
     robot.next_sequence = kept.next_sequence;
     robot.heard = robot.moved = now;
     for (const FleetSnapshot::Visit& visit : kept.visits) sequences_.push_back(visit.sequence);
@@ -275,6 +278,8 @@ FleetSnapshot FleetExecution::snapshot(double now) const {
   kept.step_sec = options_.step_sec;
   kept.release = graph_.release();
   kept.release_ahead = std::max(options_.release_ahead, restored_ahead_);
+  kept.all_paused = all_paused_;
+  kept.cancelled = cancelled_;
   for (Vertex v = 0; v < grid_->size(); ++v) {
     if (asked_blocked_[v]) kept.blocked.push_back(grid_->cellOf(v));
   }
@@ -286,6 +291,7 @@ FleetSnapshot FleetExecution::snapshot(double now) const {
     part.goal = grid_->cellOf(record.goal);
     part.planned_sec = record.planned_sec;
     part.paused = record.paused;
+    if (isHeld(robot)) part.held_at = sequences_[promised_[robot]];
     part.next_sequence = record.next_sequence;
     for (VisitId v = graph_.at(robot); v <= order.last(robot); ++v) {
       part.visits.push_back({sequences_[v], grid_->cellOf(order[v].vertex), order[v].step});

@@ -141,6 +141,16 @@ void FleetExecution::pause(std::uint32_t robot, bool paused) {
   if (!paused && record.absence == Absence::kPaused) comeBack(robot);
 }
 
+void FleetExecution::pauseAll(bool paused) {
+  all_paused_ = paused;
+  ++snapshot_version_;
+}
+
+void FleetExecution::cancel() {
+  cancelled_ = true;
+  ++snapshot_version_;
+}
+
 /// Where robots are is taken from their first reports, in any order: what one has done may need
 /// what another did before. Of silent ones the others' places tell how far they must have come.
 void FleetExecution::settleRestored(double now) {
@@ -161,18 +171,7 @@ void FleetExecution::settleRestored(double now) {
       changed = settleOne(robot, parts[robot], targets) || changed;
     }
   }
-  PromiseRule rule{std::max(options_.release_ahead, restored_ahead_), options_.joint_rings};
-  std::vector<bool> silent(count);
-  for (std::uint32_t robot = 0; robot < count; ++robot) silent[robot] = !robots_[robot].was_heard;
-  rule.held_back = &silent;
-  for (std::uint32_t robot = 0; robot < count; ++robot) {
-    promised_[robot] = graph_.at(robot) + (isUnderWay(robot) ? 1 : 0);
-  }
-  growPromises(graph_, rule, promised_);
-  // Who is silent may have gone as far as others let it.
-  silent.flip();
-  rule.ahead = kAnyNumber;
-  growPromises(graph_, rule, promised_);
+  promiseRestored();
   restoring_ = false;
   closeCells();
   for (std::uint32_t robot = 0; robot < count; ++robot) {
@@ -189,6 +188,27 @@ void FleetExecution::settleRestored(double now) {
       dropOut(robot, Absence::kLost);
     }
   }
+}
+
+/// All that robots may have been promised.
+void FleetExecution::promiseRestored() {
+  PromiseRule rule{std::max(options_.release_ahead, restored_ahead_), options_.joint_rings};
+  std::vector<bool> silent;
+  Cut limit;
+  for (std::uint32_t robot = 0; robot < robots(); ++robot) {
+    const Robot& record = robots_[robot];
+    silent.push_back(!record.was_heard);
+    promised_[robot] = graph_.at(robot) + (isUnderWay(robot) ? 1 : 0);
+    limit.push_back(graph_.precedence().last(robot));
+    if (record.held_at) limit[robot] = visitOf(robot, *record.held_at).value_or(promised_[robot]);
+  }
+  rule.held_back = &silent;
+  rule.limit = &limit;
+  growPromises(graph_, rule, promised_);
+  // Who is silent may have gone as far as others let it.
+  silent.flip();
+  rule.ahead = kAnyNumber;
+  growPromises(graph_, rule, promised_);
 }
 
 /// Moves a robot to where it is said to be, as far as the others' places allow. @param targets  by

@@ -111,7 +111,7 @@ void FleetServer::takeGoal(Goal goal) {
                       "a plan is being executed; cancel that goal, or wait for its end");
     }
     const MultiRobotPlan& plan = goal.getGoal()->plan;
-    if (fleet_ && isTheSame(plan)) {
+    if (fleet_ && !fleet_->isCancelled() && isTheSame(plan)) {
       goal.setAccepted();
       goal_ = goal;
       return;

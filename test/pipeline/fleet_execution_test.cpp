@@ -272,6 +272,27 @@ TEST(FleetExecution, IsTakenUpAgainWithTheStepOfItsPlan) {
   EXPECT_THROW(FleetExecution(small.grid, kept, small.options, 0), OptionError);
 }
 
+TEST(FleetExecution, StaysPausedOrCancelledWhenItIsTakenUpAgain) {
+  for (const bool cancel : {true, false}) {
+    SCOPED_TRACE(cancel ? "cancelled" : "paused");
+    Small small({"......"}, {{0, 1, 2, 3, 4, 5}});
+    const std::uint64_t before = small.fleet->snapshotVersion();
+    if (cancel) small.fleet->cancel();
+    if (!cancel) small.fleet->pauseAll(true);
+    EXPECT_NE(small.fleet->snapshotVersion(), before) << "it has to be kept";
+    const FleetSnapshot kept = small.fleet->snapshot(1);
+    FleetExecution next(small.grid, kept, small.options, 2);
+    // It may have gone as far as it was released, and is released no more.
+    for (const std::uint32_t visit : {1U, 2U}) {
+      next.report(0, {visit, 0, DriveStatus::kOk, {}}, 3);
+      next.advance(3);
+    }
+    EXPECT_EQ(next.status(3)[0].released_until, 2U);
+    EXPECT_EQ(next.isCancelled(), cancel);
+    EXPECT_EQ(next.isFinished(), cancel);
+  }
+}
+
 TEST(FleetExecution, FindsSilentRobotsAndTakesThemBack) {
   Small small({"....", "...."}, {{0, 1, 2, 3}, {4, 5, 6, 7}});
   small.fleet->report(1, {0, 0, DriveStatus::kOk, {}}, 3);

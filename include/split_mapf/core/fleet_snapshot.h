@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,7 @@
 namespace split_mapf {
 
 /// An execution as it is kept for the case that who conducts it dies. What robots were promised
-/// need not be kept: it follows from the visits and from where robots are.
+/// follows from the visits and from where robots are, but for those that were held.
 struct FleetSnapshot {
   struct Visit {
     std::uint32_t sequence = 0;
@@ -23,6 +24,8 @@ struct FleetSnapshot {
     bool paused = false;
     std::uint32_t next_sequence = 0;  ///< the first number that no visit of it ever had
     std::vector<Visit> visits;        ///< from where it is on
+    /// The number of the last visit promised to a robot that is held; nothing: it is not.
+    std::optional<std::uint32_t> held_at = std::nullopt;
   };
   std::string plan_id;
   std::uint32_t width = 0;  ///< of the grid [cells]
@@ -31,6 +34,8 @@ struct FleetSnapshot {
   double step_sec = 1;
   double release = 0;
   std::uint32_t release_ahead = 0;
+  bool all_paused = false;
+  bool cancelled = false;
   std::vector<Cell> blocked;
   std::vector<Robot> robots;
 };

@@ -96,9 +96,9 @@ class FleetExecution {
   /// A paused robot ends what is released to it, then the others are planned around it.
   void pause(std::uint32_t robot, bool paused);
   /// Nobody is promised anything more.
-  void pauseAll(bool paused) { all_paused_ = paused; }
+  void pauseAll(bool paused);
   /// Everybody ends what is released, and stays.
-  void cancel() { cancelled_ = true; }
+  void cancel();
 
   /// Looks for robots that are silent or blocked for too long, and promises what can be.
   void advance(double now);
@@ -156,7 +156,8 @@ class FleetExecution {
     Vertex came_from = kNoVertex;
     Vertex place = kNoVertex;  ///< where it strayed to
     std::uint32_t next_sequence = 0;
-    RobotReport first_report;  ///< while restoring
+    RobotReport first_report;              ///< while restoring
+    std::optional<std::uint32_t> held_at;  ///< likewise, see FleetSnapshot
   };
   struct Joiner {
     std::string id;
@@ -178,6 +179,7 @@ class FleetExecution {
   void comeBack(std::uint32_t robot);
   void voidPromise(std::uint32_t robot);
   void settleRestored(double now);
+  void promiseRestored();
   bool settleOne(std::uint32_t robot, double part, std::vector<VisitId>& targets);
 
   // Standing robots and cells.
@@ -188,6 +190,10 @@ class FleetExecution {
     return promised_[robot] > graph_.at(robot) || isUnderWay(robot);
   }
   bool anyMayMove() const;
+  /// Whether somebody asked that it be promised nothing more.
+  bool isHeld(std::uint32_t robot) const {
+    return all_paused_ || cancelled_ || robots_[robot].paused;
+  }
   std::vector<bool> closedCells() const;
   void closeCells();
   bool leadsToClosed() const;
