@@ -42,9 +42,11 @@ ReportFate FleetExecution::report(std::uint32_t robot, const RobotReport& report
   return fate;
 }
 
-void FleetExecution::hear(std::uint32_t robot, const std::optional<Cell>& place, double now) {
+void FleetExecution::hear(std::uint32_t robot, DriveStatus status, const std::optional<Cell>& place,
+                          double now) {
   RobotReport standing;
   standing.sequence = sequences_[graph_.at(robot)];
+  standing.status = status;
   standing.place = place;
   report(robot, standing, now);
 }

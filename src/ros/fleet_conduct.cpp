@@ -49,15 +49,16 @@ void FleetServer::takeProgress(const RobotProgress& message) {
     }
   }
   const auto robot = index_.find(message.robot_id);
+  const auto status = static_cast<DriveStatus>(message.status);
   if (robot == index_.end() || message.plan_id != plan_id_) {
     ++counts_.of_others;
-    if (robot != index_.end()) fleet_->hear(robot->second, place, time);
+    if (robot != index_.end()) fleet_->hear(robot->second, status, place, time);
     return;
   }
   RobotReport report;
   report.sequence = message.sequence;
   report.fraction = message.fraction;
-  report.status = static_cast<DriveStatus>(message.status);
+  report.status = status;
   report.place = place;
   const ReportFate fate = fleet_->report(robot->second, report, time);
   if (fate != ReportFate::kTaken) countRefused(message, toString(fate));

@@ -293,6 +293,16 @@ TEST(FleetExecution, StaysPausedOrCancelledWhenItIsTakenUpAgain) {
   }
 }
 
+TEST(FleetExecution, BelievesARobotThatHasNotBegunThatItCannot) {
+  Small small({"....", "...."}, {{0, 1, 2, 3}, {4, 5, 6, 7}});
+  small.fleet->hear(0, DriveStatus::kFault, std::nullopt, 1);
+  small.fleet->hear(1, DriveStatus::kLost, std::nullopt, 1);
+  EXPECT_EQ(small.fleet->status(1)[0].absence, Absence::kFault);
+  EXPECT_EQ(small.fleet->status(1)[1].absence, Absence::kLost);
+  small.fleet->hear(1, DriveStatus::kOk, std::nullopt, 2);
+  EXPECT_EQ(small.fleet->status(2)[1].absence, Absence::kNone);
+}
+
 TEST(FleetExecution, FindsSilentRobotsAndTakesThemBack) {
   Small small({"....", "...."}, {{0, 1, 2, 3}, {4, 5, 6, 7}});
   small.fleet->report(1, {0, 0, DriveStatus::kOk, {}}, 3);

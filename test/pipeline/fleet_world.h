@@ -157,7 +157,8 @@ class FleetWorld {
   void deliverReports() {
     for (Body& body : bodies_) {
       const auto robot = fleet_->find(body.id);
-      if (body.fresh && robot && !body.silent) fleet_->hear(*robot, std::nullopt, now_);
+      if (body.fresh && robot && !body.silent)
+        fleet_->hear(*robot, body.status, std::nullopt, now_);
       while (!body.reports.empty() && body.reports.front().due <= tick_) {
         if (robot) fates_.push_back(fleet_->report(*robot, body.reports.front().report, now_));
         body.reports.pop_front();

@@ -85,7 +85,7 @@ class FleetExecution {
   // --- What happens ---
   ReportFate report(std::uint32_t robot, const RobotReport& report, double now);
   /// The robot is there, but has not begun on its route: it stands where that begins.
-  void hear(std::uint32_t robot, const std::optional<Cell>& place, double now);
+  void hear(std::uint32_t robot, DriveStatus status, const std::optional<Cell>& place, double now);
   /// Vertices that nobody may be sent to, beside those where absent robots stand.
   void setBlocked(const std::vector<bool>& blocked);
   /// Takes a robot off the floor: its cells are free. The numbers of those behind it sink by one.
