@@ -41,6 +41,7 @@ void FleetServer::takeProgress(const RobotProgress& message) {
   Known& known = known_[message.robot_id];
   known.heard = time;
   const std::optional<Cell> place = placeOf(message.pose);
+  if (!message.pose.header.frame_id.empty()) known.pose = message.pose;
   if (place) known.place = place;
   if (!fleet_) return;
   if (index_.empty()) {

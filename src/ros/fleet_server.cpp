@@ -30,6 +30,13 @@ PlanningGrid latestGrid(const MapSource& maps, const GoalOptions& options) {
   return makePlanningGrid(*map, options.occupancy, options.ignore_specks);
 }
 
+bool liesTheSame(const MapGeometry& one, const MapGeometry& other) {
+  const nav_msgs::MapMetaData& a = one.info();
+  const nav_msgs::MapMetaData& b = other.info();
+  return a.width == b.width && a.height == b.height && a.resolution == b.resolution &&
+         a.origin == b.origin && one.frame() == other.frame();
+}
+
 FaultList listOf(std::vector<RobotFault> faults) {
   FaultList list;
   for (std::size_t i = 0; i < faults.size(); ++i) list.add(i, std::move(faults[i]));
@@ -198,9 +205,21 @@ std::vector<RobotFault> FleetServer::notReady(const Waiting& waiting, double now
   return faults;
 }
 
+/// Cells of a map that lies elsewhere are other places.
+void FleetServer::changeGrid(const PlanningGrid& grid) {
+  const bool stays = grid_ && liesTheSame(grid_->geometry, grid.geometry);
+  grid_ = grid;
+  if (stays) return;
+  for (auto& [id, known] : known_) known.place = placeOf(known.pose);
+  if (blocked_.empty()) return;
+  ROS_WARN("the map lies elsewhere now, so that %s may be entered again",
+           counted(blocked_.size(), "blocked cell").c_str());
+  blocked_.clear();
+}
+
 void FleetServer::beginWhenReady(double now) {
   if (!waiting_ || fleet_ || replans_) return;
-  grid_ = waiting_->grid;
+  changeGrid(waiting_->grid);
   std::vector<RobotFault> faults = notReady(*waiting_, now);
   if (faults.empty()) {
     const Waiting waiting = std::move(*waiting_);
@@ -208,12 +227,12 @@ void FleetServer::beginWhenReady(double now) {
     begin(waiting, now);
     return;
   }
-  // Who does not report may be about to; who is elsewhere is not.
-  const bool all_silent = std::all_of(faults.begin(), faults.end(), [](const RobotFault& fault) {
+  // Who does not report may be about to; then all that is wrong is told at once.
+  const bool is_any_silent = std::any_of(faults.begin(), faults.end(), [](const RobotFault& fault) {
     return fault.code == codeOf(Outcome::kUnknownRobot);
   });
   const bool patient = now - waiting_->since <= options_.fleet.progress_timeout_sec;
-  if (all_silent && patient) return;
+  if (is_any_silent && patient) return;
   const GoalError error(listOf(std::move(faults)));
   ExecutePlanResult result;
   result.outcome = codeOf(error.outcome());
@@ -249,10 +268,10 @@ void FleetServer::takeUpAgain(double now) {
       kept_may_exist_ = false;
       return;
     }
-    PlanningGrid grid = latestGrid(maps_, options_.server.goal);
+    const PlanningGrid grid = latestGrid(maps_, options_.server.goal);
     kept_may_exist_ = false;
     fleet_ = std::make_unique<FleetExecution>(grid.grid, *kept, options_.fleet, now);
-    grid_ = std::move(grid);
+    changeGrid(grid);
     for (const Cell cell : kept->blocked) blocked_.insert(grid_->geometry.indexOf(cell));
     plan_id_ = kept->plan_id;
     began_ = now - kept->elapsed_sec;
@@ -314,7 +333,8 @@ void FleetServer::end(const ExecutePlanResult& result) {
   publishState(clock_);
   for (std::uint32_t robot = 0; robot < fleet_->robots(); ++robot) {
     Known& known = known_[fleet_->id(robot)];
-    if (!known.place) known.place = grid_->grid->cellOf(fleet_->vertexOf(robot));
+    const bool has_pose = !known.pose.header.frame_id.empty();
+    if (!has_pose) known.place = grid_->grid->cellOf(fleet_->vertexOf(robot));
   }
   const bool arrived = result.outcome == codeOf(Outcome::kSucceeded);
   const bool cancelled = result.outcome == codeOf(Outcome::kCancelled);

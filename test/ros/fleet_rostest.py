@@ -164,14 +164,16 @@ class Fleet(unittest.TestCase):
     def test_answers_what_cannot_be(self):
         fleet = self.start_fleet()
         self.start_robots()
+        # The node hears of their places before it knows any map.
+        self.assertTrue(wait_until(lambda: len(self.progress.messages) > 2 * ROBOTS))
         wrong = MultiRobotPlan()
         wrong.header, wrong.grid, wrong.step_duration = self.plan.header, self.plan.grid, STEP
         wrong.paths = [RobotPath(robot_id="ghost", cells=[0])]
         for plan, outcome, word in (
+                (self.elsewhere(), PlanOutcome.INVALID_POSE, "begins"),
                 (self.other_map(), PlanOutcome.INVALID_MAP, "grid"),
                 (self.jumping(), PlanOutcome.INVALID_OPTION, "claims"),
-                (wrong, PlanOutcome.UNKNOWN_ROBOT, "ghost"),
-                (self.elsewhere(), PlanOutcome.INVALID_POSE, "begins")):
+                (wrong, PlanOutcome.UNKNOWN_ROBOT, "ghost")):
             goal = self.send(plan)
             self.assertTrue(goal.wait_for_end(), fleet.output())
             self.assertEqual(goal.result().outcome, outcome, goal.result().message)

@@ -76,7 +76,8 @@ class FleetServer {
   /// A robot that reports, of the fleet or not.
   struct Known {
     double heard = 0;
-    std::optional<Cell> place;
+    geometry_msgs::PoseStamped pose;  ///< the last one; an empty frame: it gave none
+    std::optional<Cell> place;        ///< on the present grid
   };
   /// A plan that is right, and waits for its robots to report, or for an older one to end.
   struct Waiting {
@@ -93,6 +94,7 @@ class FleetServer {
   Waiting check(const Goal& goal) const;
   bool isTheSame(const MultiRobotPlan& plan) const;
   void beginWhenReady(double now);
+  void changeGrid(const PlanningGrid& grid);
   std::vector<RobotFault> notReady(const Waiting& waiting, double now) const;
   void begin(const Waiting& waiting, double now);
   void takeUpAgain(double now);
