@@ -117,6 +117,9 @@ void FleetServer::takeGoal(Goal goal) {
       throw GoalError(Outcome::kServerBusy,
                       "a plan is being executed; cancel that goal, or wait for its end");
     }
+    // The plan may be the one that was under way when this node ended, and come before the first
+    // tick.
+    if (!fleet_) takeUpAgain(now());
     const MultiRobotPlan& plan = goal.getGoal()->plan;
     if (fleet_ && !fleet_->isCancelled() && isTheSame(plan)) {
       goal.setAccepted();
