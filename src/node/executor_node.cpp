@@ -37,7 +37,7 @@ void run(split_mapf::NodeContext& context) {
   const split_mapf::FleetServerOptions options =
       split_mapf::readFleetOptions(context.parameters, defaultFile());
   for (const std::string& name : split_mapf::findUnknownFleetParameters(context.parameters)) {
-    ROS_WARN("parameter ~%s is not one of this node", name.c_str());
+    ROS_WARN("parameter ~%s has no meaning for this node", name.c_str());
   }
   const std::uint32_t asked = options.server.goal.plan.threads;
   split_mapf::Executor executor(asked != 0 ? asked

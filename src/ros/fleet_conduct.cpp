@@ -21,7 +21,6 @@ namespace split_mapf {
 namespace {
 
 constexpr double kStatePeriodSec = 0.5;
-constexpr double kReplanLimitSec = 10;
 
 bool isFinite(const geometry_msgs::Point& point) {
   return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
@@ -131,9 +130,10 @@ void FleetServer::askLocked(double time) {
 void FleetServer::replan(const FleetQuestion& question, std::uint64_t epoch) {
   const ros::WallTime begin = ros::WallTime::now();
   FleetAnswer answer;
+  const PlanRequest& request = options_.server.goal.plan;
+  const double limit = question.anew ? request.time_limit_sec : options_.replan_budget_sec;
   try {
-    answer = answerFleet(question, planner_, options_.server.goal.plan,
-                         Deadline(kReplanLimitSec, stop_));
+    answer = answerFleet(question, planner_, request, Deadline(limit, stop_));
   } catch (const std::exception& error) {
     answer.version = question.version;
     answer.anew = question.anew;

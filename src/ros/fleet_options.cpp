@@ -1,6 +1,7 @@
 #include "split_mapf/ros/fleet_options.h"
 
 #include <algorithm>
+#include <set>
 
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
@@ -10,6 +11,15 @@ namespace split_mapf {
 namespace {
 
 constexpr std::int64_t kMostVisits = 1000;
+constexpr double kMostSeconds = 1e9;
+// Robots stand, or run out of promises, while they wait for a plan.
+constexpr double kTimeLimitSec = 10;
+
+// Of the planner node, without a meaning here: a fleet is planned anew for the sum of costs, on the
+// cells and with the step of the plan that it carries out.
+const std::set<std::string> kOfPlannerAlone = {
+    "objective", "step_duration", "robot_speed",      "cell_size",     "clearance", "snap_distance",
+    "passages",  "ignore_specks", "max_queued_goals", "publish_paths", "fill_poses"};
 
 bool readChoice(ParameterReader& reader, const std::string& name, const char* yes, const char* no,
                 bool chosen) {
@@ -26,6 +36,8 @@ void readAll(ParameterReader& reader, FleetServerOptions& options) {
   fleet.replans = readChoice(reader, "policy", "replan", "graph", fleet.replans);
   fleet.joint_rings = readChoice(reader, "rings", "joint", "avoid", fleet.joint_rings);
   reader.read("replan_period", fleet.replan_period_sec);
+  reader.read("replan_budget", options.replan_budget_sec);
+  reader.read("time_limit", options.server.goal.plan.time_limit_sec);
   reader.read("turn_time", fleet.turn_sec);
   reader.read("progress_timeout", fleet.progress_timeout_sec);
   reader.read("obstacle_time", fleet.obstacle_time_sec);
@@ -44,13 +56,16 @@ FleetServerOptions readFleetOptions(const XmlRpc::XmlRpcValue& parameters,
   FleetServerOptions options;
   options.server = readServerOptions(parameters);
   options.server.goal.plan.straighten = true;
+  options.server.goal.plan.time_limit_sec = kTimeLimitSec;
   options.execution_file = default_file;
   ParameterReader reader(parameters);
   readAll(reader, options);
   options.robot_radius_m = options.server.goal.robot_radius_m;
-  PlanRequest& plan = options.server.goal.plan;
-  plan.objective = Objective::kSumOfCosts;
-  if (plan.split == "auto") plan.split = "none";
+  options.server.goal.plan.objective = Objective::kSumOfCosts;
+  if (!(options.replan_budget_sec >= 0 && options.replan_budget_sec <= kMostSeconds)) {
+    throw OptionError("replan_budget " + numeral(options.replan_budget_sec) +
+                      " s is out of range: 0 to " + numeral(kMostSeconds) + " is expected");
+  }
   requireValid(options.fleet);
   return options;
 }
@@ -66,6 +81,9 @@ std::vector<std::string> findUnknownFleetParameters(const XmlRpc::XmlRpcValue& p
            std::find(not_of_fleet.begin(), not_of_fleet.end(), name) == not_of_fleet.end();
   };
   unknown.erase(std::remove_if(unknown.begin(), unknown.end(), is_of_fleet), unknown.end());
+  for (const std::string& name : ParameterReader(parameters).unreadNames()) {
+    if (kOfPlannerAlone.count(name) > 0) unknown.push_back(name);
+  }
   return unknown;
 }
 

@@ -22,6 +22,8 @@ TEST(FleetOptions, HaveTheirDefaults) {
   EXPECT_FALSE(options.fleet.joint_rings);
   EXPECT_EQ(options.execution_file, "kept.json");
   EXPECT_EQ(options.server.goal.plan.objective, Objective::kSumOfCosts);
+  EXPECT_EQ(options.server.goal.plan.time_limit_sec, 10);
+  EXPECT_EQ(options.replan_budget_sec, 1);
 }
 
 TEST(FleetOptions, AreRead) {
@@ -30,12 +32,16 @@ TEST(FleetOptions, AreRead) {
   parameters["release_ahead"] = 4;
   parameters["robot_radius"] = 0.25;
   parameters["execution_file"] = "";
+  parameters["replan_budget"] = 0.5;
+  parameters["time_limit"] = 3;
   const FleetServerOptions options = readFleetOptions(parameters, "kept.json");
   EXPECT_FALSE(options.fleet.replans);
   EXPECT_TRUE(options.fleet.joint_rings);
   EXPECT_EQ(options.fleet.release_ahead, 4U);
   EXPECT_EQ(options.robot_radius_m, 0.25);
   EXPECT_EQ(options.execution_file, "");
+  EXPECT_EQ(options.replan_budget_sec, 0.5);
+  EXPECT_EQ(options.server.goal.plan.time_limit_sec, 3);
 }
 
 TEST(FleetOptions, NameWhatIsWrong) {
@@ -43,6 +49,8 @@ TEST(FleetOptions, NameWhatIsWrong) {
                                     {"rings", "broken"},
                                     {"release_ahead", 0},
                                     {"replan_period", -1.0},
+                                    {"replan_budget", -1.0},
+                                    {"time_limit", -1.0},
                                     {"progress_timeout", "soon"}}) {
     try {
       readFleetOptions(parametersOf(name, value), "");
@@ -59,6 +67,12 @@ TEST(FleetOptions, KnowTheirOwnAndThePlanners) {
   EXPECT_TRUE(findUnknownFleetParameters(parameters).empty());
   parameters["polcy"] = "graph";
   EXPECT_EQ(findUnknownFleetParameters(parameters), std::vector<std::string>{"polcy"});
+}
+
+TEST(FleetOptions, SayWhichOfThePlannersHaveNoMeaning) {
+  XmlRpc::XmlRpcValue parameters = parametersOf("objective", "makespan");
+  parameters["time_limit"] = 5.0;
+  EXPECT_EQ(findUnknownFleetParameters(parameters), std::vector<std::string>{"objective"});
 }
 
 }  // namespace
