@@ -14,6 +14,9 @@ namespace split_mapf {
 std::vector<bool> FleetExecution::closedCells() const {
   const Precedence& order = graph_.precedence();
   std::vector<bool> closed = asked_blocked_;
+  for (Vertex v = 0; v < closed.size(); ++v) {
+    if (strangers_[v]) closed[v] = true;
+  }
   for (const Obstacle& obstacle : obstacles_) closed[obstacle.vertex] = true;
   for (std::uint32_t robot = 0; robot < robots_.size(); ++robot) {
     if (takesPart(robot)) continue;
@@ -42,13 +45,23 @@ bool FleetExecution::leadsToClosed() const {
 }
 
 /// Cells that are open again may give a way to robots that had none.
+void FleetExecution::openCells() {
+  const auto lacks_way = [](const Robot& robot) { return robot.fault != GoalFault::kNone; };
+  if (std::any_of(robots_.begin(), robots_.end(), lacks_way)) incident_ = true;
+  closeCells();
+}
+
 void FleetExecution::setBlocked(const std::vector<bool>& blocked) {
   if (asked_blocked_ == blocked) return;
   asked_blocked_ = blocked;
   ++snapshot_version_;
-  const auto lacks_way = [](const Robot& robot) { return robot.fault != GoalFault::kNone; };
-  if (std::any_of(robots_.begin(), robots_.end(), lacks_way)) incident_ = true;
-  closeCells();
+  openCells();
+}
+
+void FleetExecution::setStrangers(const std::vector<bool>& taken) {
+  if (strangers_ == taken) return;
+  strangers_ = taken;
+  openCells();
 }
 
 void FleetExecution::advance(double now) {
@@ -99,9 +112,7 @@ void FleetExecution::forgetObstacles(double now) {
   const auto end = std::remove_if(obstacles_.begin(), obstacles_.end(), over);
   if (end == obstacles_.end()) return;
   obstacles_.erase(end, obstacles_.end());
-  const auto lacks_way = [](const Robot& robot) { return robot.fault != GoalFault::kNone; };
-  if (std::any_of(robots_.begin(), robots_.end(), lacks_way)) incident_ = true;
-  closeCells();
+  openCells();
 }
 
 /// Once a step: who could go on, and has done nothing for longer than a move and its turns take.
@@ -165,9 +176,7 @@ void FleetExecution::remove(std::uint32_t robot) {
   ++version_;
   ++snapshot_version_;
   ground_.reset();
-  const auto lacks_way = [](const Robot& other) { return other.fault != GoalFault::kNone; };
-  if (std::any_of(robots_.begin(), robots_.end(), lacks_way)) incident_ = true;
-  closeCells();
+  openCells();
 }
 
 std::string FleetExecution::add(const std::string& id, Vertex at, Vertex goal) {

@@ -117,6 +117,7 @@ FleetExecution::FleetExecution(std::shared_ptr<const Grid> grid, std::vector<std
       times_(motionOf(options_)),
       graph_(Precedence(plan, grid_->size()), options.release),
       asked_blocked_(grid_->size(), false),
+      strangers_(grid_->size(), false),
       standing_(std::make_unique<StandingTimes>(static_cast<std::uint32_t>(ids.size()))),
       began_(now),
       observed_(now),
@@ -147,6 +148,7 @@ FleetExecution::FleetExecution(std::shared_ptr<const Grid> grid, const FleetSnap
       times_(motionOf(options_)),
       graph_(orderOf(snapshot, *grid_), snapshot.release),
       asked_blocked_(grid_->size(), false),
+      strangers_(grid_->size(), false),
       standing_(
           std::make_unique<StandingTimes>(static_cast<std::uint32_t>(snapshot.robots.size()))),
       began_(now - snapshot.elapsed_sec),

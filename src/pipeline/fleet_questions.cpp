@@ -74,6 +74,7 @@ FleetQuestion FleetExecution::makeQuestion(bool anew) {
     // Who stands on a blocked cell may leave it.
     if (takes_part[robot]) blocked[graph_.precedence()[question_cut_[robot]].vertex] = false;
   }
+  for (const Vertex at : joiners) blocked[at] = false;
   asked_ = true;
   question_version_ = version_;
   if (anew) incident_ = false;
@@ -184,6 +185,7 @@ void FleetExecution::welcomeJoiners(std::size_t count, double now) {
     robot.goal = joiners_[i].goal;
     robot.heard = robot.moved = now;
     robot.planned_sec = now - began_;
+    strangers_[joiners_[i].at] = false;
     robots_.push_back(std::move(robot));
     changed_.push_back(true);
   }

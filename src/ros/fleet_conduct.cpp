@@ -89,16 +89,18 @@ std::optional<Cell> FleetServer::placeOf(const geometry_msgs::PoseStamped& pose)
 
 /// Cells that were blocked by a service, and those where robots stand that are not of the fleet.
 void FleetServer::closeCells() {
-  std::vector<bool> closed(grid_->grid->size(), false);
-  const auto close = [&](Cell cell) {
+  std::vector<bool> blocked(grid_->grid->size(), false);
+  std::vector<bool> strangers = blocked;
+  const auto mark = [&](std::vector<bool>& cells, Cell cell) {
     const Vertex vertex = grid_->grid->vertexAt(cell);
-    if (vertex != kNoVertex) closed[vertex] = true;
+    if (vertex != kNoVertex) cells[vertex] = true;
   };
-  for (const std::uint32_t cell : blocked_) close(grid_->geometry.cellOf(cell));
+  for (const std::uint32_t cell : blocked_) mark(blocked, grid_->geometry.cellOf(cell));
   for (const auto& [id, known] : known_) {
-    if (known.place && index_.count(id) == 0) close(*known.place);
+    if (known.place && index_.count(id) == 0) mark(strangers, *known.place);
   }
-  fleet_->setBlocked(closed);
+  fleet_->setBlocked(blocked);
+  fleet_->setStrangers(strangers);
 }
 
 void FleetServer::tick() {

@@ -233,6 +233,30 @@ TEST(FleetExecution, LetsRobotsGoAndJoin) {
   EXPECT_EQ(small.fleet->route(1, 100).back().vertex, 4U);
 }
 
+TEST(FleetExecution, TakesInARobotThatWasAnObstacleUntilThen) {
+  Small small({"....", "...."}, {{0, 1, 2, 3}});
+  std::vector<bool> strangers(8, false);
+  strangers[7] = true;
+  small.fleet->setStrangers(strangers);
+  EXPECT_EQ(small.fleet->add("new", 7, 4), "");
+  small.answer(1);
+  ASSERT_EQ(small.fleet->robots(), 2U);
+  EXPECT_EQ(small.fleet->status(1)[1].fault, GoalFault::kNone);
+  EXPECT_EQ(small.fleet->route(1, 100).back().vertex, 4U);
+}
+
+TEST(FleetExecution, IsNotKeptAnewForRobotsThatPassBy) {
+  Small small({"....", "...."}, {{0, 1, 2, 3}});
+  const std::uint64_t before = small.fleet->snapshotVersion();
+  std::vector<bool> cells(8, false);
+  cells[7] = true;
+  small.fleet->setStrangers(cells);
+  EXPECT_EQ(small.fleet->snapshotVersion(), before);
+  EXPECT_TRUE(small.fleet->snapshot(0).blocked.empty());
+  small.fleet->setBlocked(cells);
+  EXPECT_NE(small.fleet->snapshotVersion(), before);
+}
+
 TEST(FleetExecution, ForgetsTheCutOfAQuestionWhenARobotLeaves) {
   Small small({"......", "......"}, {{6}, {0, 1, 2, 3, 4, 5}, {7}});
   ASSERT_TRUE(small.fleet->ask(0));

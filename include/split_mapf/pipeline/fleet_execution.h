@@ -88,6 +88,9 @@ class FleetExecution {
   void hear(std::uint32_t robot, DriveStatus status, const std::optional<Cell>& place, double now);
   /// Vertices that nobody may be sent to, beside those where absent robots stand.
   void setBlocked(const std::vector<bool>& blocked);
+  /// Vertices where robots stand that are not of the fleet: nobody may be sent there either. They
+  /// come and go, and are not part of a snapshot.
+  void setStrangers(const std::vector<bool>& taken);
   /// Takes a robot off the floor: its cells are free. The numbers of those behind it sink by one.
   void remove(std::uint32_t robot);
   /// A robot that stands on a vertex joins with the next plan that is made anew.
@@ -195,6 +198,7 @@ class FleetExecution {
     return all_paused_ || cancelled_ || robots_[robot].paused;
   }
   std::vector<bool> closedCells() const;
+  void openCells();
   void closeCells();
   bool leadsToClosed() const;
   void watch(double now);
@@ -222,6 +226,7 @@ class FleetExecution {
   Cut promised_;                          ///< by robot
   std::vector<bool> changed_;             ///< by robot: its route
   std::vector<bool> asked_blocked_;       ///< by vertex, by order of the caller
+  std::vector<bool> strangers_;           ///< by vertex: where they stand
   std::vector<Obstacle> obstacles_;       ///< as robots found them
   std::vector<bool> closed_;  ///< by vertex: all of these, and where absent robots stand
   std::unique_ptr<StandingTimes> standing_;
