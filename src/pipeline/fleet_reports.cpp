@@ -146,6 +146,9 @@ void FleetExecution::pause(std::uint32_t robot, bool paused) {
 void FleetExecution::pauseAll(bool paused) {
   all_paused_ = paused;
   ++snapshot_version_;
+  for (std::uint32_t robot = 0; !paused && robot < robots(); ++robot) {
+    if (robots_[robot].paused) pause(robot, false);
+  }
 }
 
 void FleetExecution::cancel() {

@@ -86,8 +86,8 @@ void FleetServer::shutdown() {
   ExecutePlanResult result;
   result.outcome = codeOf(Outcome::kCancelled);
   result.message = "the node ends; robots stop at the end of what is released to them";
-  if (goal_) goal_->setAborted(result, result.message);
-  if (waiting_) waiting_->goal.setAborted(result, result.message);
+  if (goal_) goal_->setCanceled(result, result.message);
+  if (waiting_) waiting_->goal.setCanceled(result, result.message);
   goal_.reset();
   waiting_.reset();
 }
@@ -177,7 +177,7 @@ FleetServer::Waiting FleetServer::check(const Goal& goal) const {
     }
     ids.push_back(path.robot_id);
   }
-  distinctRosNames(ids);
+  distinctRosNames(ids, "route");
   FleetOptions options = options_.fleet;
   options.step_sec = plan.step_duration;
   if (options_.robot_radius_m > 0) {

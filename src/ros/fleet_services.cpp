@@ -2,9 +2,12 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
+#include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
 #include "split_mapf/ros/fleet_server.h"
+#include "split_mapf/ros/plan_messages.h"
 #include "split_mapf/ros/text_limits.h"
 
 namespace split_mapf {
@@ -82,6 +85,15 @@ std::string FleetServer::tryToAdd(const RobotTask& task) {
   const Vertex at = grid_->grid->vertexAt(*start);
   const Vertex to = grid_->grid->vertexAt(*goal);
   if (at == kNoVertex || to == kNoVertex) return "its cell or its goal is not free on the map";
+  std::vector<std::string> ids;
+  for (std::uint32_t robot = 0; robot < fleet_->robots(); ++robot) ids.push_back(fleet_->id(robot));
+  // Once: that it is of the fleet already is said better below.
+  if (!fleet_->find(task.robot_id)) ids.push_back(task.robot_id);
+  try {
+    distinctRosNames(ids, "route");
+  } catch (const OptionError& error) {
+    return error.what();
+  }
   return fleet_->add(task.robot_id, at, to);
 }
 

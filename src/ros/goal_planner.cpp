@@ -38,6 +38,14 @@ GoalOptions withStepDuration(GoalOptions options, double longest_step_m) {
   return options;
 }
 
+void requireDistinctPaths(const std::vector<std::string>& ids) {
+  try {
+    distinctRosNames(ids, "path");
+  } catch (const OptionError& error) {
+    throw OptionError(std::string("publish_paths: ") + error.what());
+  }
+}
+
 /// Cells of each robot's path at least: the straight ways.
 std::vector<std::uint32_t> leastPoints(const Instance& instance) {
   const auto longest = static_cast<int>(instance.grid().longestMove());
@@ -124,7 +132,7 @@ PreparedGoal GoalPlanner::prepareUntil(const boost::shared_ptr<const PlanPathsGo
   PlanningGrid grid = makePlanningGrid(*map, options.occupancy, options.ignore_specks, deadline);
   doing = "while the robots were being placed";
   PlacedRobots robots = placeRobots(goal->robots, grid, *map, transformer_.forGoal(deadline));
-  if (options_.publish_paths) distinctRosNames(robots.ids);
+  if (options_.publish_paths) requireDistinctPaths(robots.ids);
   Instance instance(grid.grid, robots.starts, robots.goals);
   doing = "while it was being checked whether goals can be reached";
   requireReachableGoals(instance, robots.ids, grid.geometry, deadline);
@@ -133,7 +141,7 @@ PreparedGoal GoalPlanner::prepareUntil(const boost::shared_ptr<const PlanPathsGo
 }
 
 PreparedGoal GoalPlanner::prepareDiscs(const GoalOptions& options, PlacedDiscs discs) const {
-  if (options_.publish_paths) distinctRosNames(discs.ids);
+  if (options_.publish_paths) requireDistinctPaths(discs.ids);
   const DiscProblem& problem = discs.grid.discs->problem;
   const Instance instance = problem.instance();
   return PreparedGoal{withStepDuration(options, problem.longestStep()), std::move(discs.grid),

@@ -193,15 +193,16 @@ std::string rosNameOf(const std::string& robot_id) {
   return !name.empty() && isLetter(name.front()) ? name : "r" + name;
 }
 
-std::vector<std::string> distinctRosNames(const std::vector<std::string>& robot_ids) {
+std::vector<std::string> distinctRosNames(const std::vector<std::string>& robot_ids,
+                                          const std::string& topic) {
   std::vector<std::string> names;
   std::map<std::string, std::string> owners;
   for (const std::string& id : robot_ids) {
     names.push_back(rosNameOf(id));
     const auto [owner, is_new] = owners.emplace(names.back(), id);
     if (!is_new) {
-      throw OptionError("publish_paths: robots " + quote(owner->second) + " and " + quote(id) +
-                        " would both publish on " + shown(names.back() + "/path") +
+      throw OptionError("robots " + quote(owner->second) + " and " + quote(id) +
+                        " would both use the topic " + shown(names.back() + "/" + topic) +
                         "; ids have to differ in letters, digits or '_'");
     }
   }

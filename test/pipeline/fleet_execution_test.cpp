@@ -317,6 +317,17 @@ TEST(FleetExecution, StaysPausedOrCancelledWhenItIsTakenUpAgain) {
   }
 }
 
+TEST(FleetExecution, LetsPausedRobotsGoOnWithAllOthers) {
+  Small small({"....", "...."}, {{0, 1, 2, 3}, {4, 5, 6, 7}});
+  small.fleet->pause(0, true);
+  small.fleet->pauseAll(true);
+  small.fleet->pauseAll(false);
+  small.fleet->report(0, {2, 0, DriveStatus::kOk, {}}, 1);
+  small.fleet->advance(1);
+  EXPECT_EQ(small.fleet->status(1)[0].absence, Absence::kNone);
+  EXPECT_EQ(small.fleet->status(1)[0].released_until, 3U);
+}
+
 TEST(FleetExecution, BelievesARobotThatHasNotBegunThatItCannot) {
   Small small({"....", "...."}, {{0, 1, 2, 3}, {4, 5, 6, 7}});
   small.fleet->hear(0, DriveStatus::kFault, std::nullopt, 1);

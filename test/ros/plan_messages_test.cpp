@@ -122,12 +122,12 @@ TEST(RosName, IsALegalName) {
 }
 
 TEST(RosName, MustBeDistinct) {
-  EXPECT_EQ(distinctRosNames({"a", "b"}), (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(distinctRosNames({"a", "b"}, "path"), (std::vector<std::string>{"a", "b"}));
   try {
-    distinctRosNames({"a b", "c", "a-b"});
+    distinctRosNames({"a b", "c", "a-b"}, "route");
     FAIL() << "accepted";
   } catch (const OptionError& error) {
-    for (const char* part : {"'a b'", "'a-b'", "a_b/path"}) {
+    for (const char* part : {"'a b'", "'a-b'", "a_b/route"}) {
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << part;
     }
   }

@@ -98,7 +98,7 @@ class FleetExecution {
   std::string add(const std::string& id, Vertex at, Vertex goal);
   /// A paused robot ends what is released to it, then the others are planned around it.
   void pause(std::uint32_t robot, bool paused);
-  /// Nobody is promised anything more.
+  /// Nobody is promised anything more; false: everybody goes on, those paused one by one, too.
   void pauseAll(bool paused);
   /// Everybody ends what is released, and stays.
   void cancel();

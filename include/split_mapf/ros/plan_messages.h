@@ -62,7 +62,9 @@ void fillPoses(MultiRobotPlan& plan, const Deadline& deadline = {});
 /// The ROS name of a robot: its id with characters illegal in ROS names turned into `_`, and `r`
 /// in front unless a letter leads. A slash counts as illegal: one robot, one name.
 std::string rosNameOf(const std::string& robot_id);
-/// The ROS names of all robots. @throws OptionError naming two robots that share one.
-std::vector<std::string> distinctRosNames(const std::vector<std::string>& robot_ids);
+/// The ROS names of all robots, each of which has a topic of that name.
+/// @throws OptionError naming two robots that share it.
+std::vector<std::string> distinctRosNames(const std::vector<std::string>& robot_ids,
+                                          const std::string& topic);
 
 }  // namespace split_mapf
