@@ -1,26 +1,84 @@
 #!/usr/bin/env python3
 """Checks in a bag that no two robots ever came too close: reads the poses in RobotProgress messages.
 
-Robots whose poses have one stamp are compared; between two stamps each is taken to go straight, so
-the least distance is that of continuous time but for corners cut within a period.
+Robots may report at moments of their own: between two of its poses each is taken to go straight, and
+after its last one to stand. Positions are compared at moments that are --period apart at least, and
+between these the least distance is that of continuous time, but for corners cut within a period.
 
-exit codes: 0 they kept apart, 1 bad usage or nothing recorded, 2 some came too close
+exit codes: 0 they kept apart, 1 bad usage or nothing to compare, 2 some came too close
 """
 
 import argparse
+import collections
 import math
 import sys
 
 import rosbag
 
+# Seconds by which stamps in a bag may be out of order.
+LAG = 1.0
 
-def moments_of(bag, topic):
-    """Positions of all robots by stamp, in order."""
-    moments = {}
+
+class Track:
+    """The last poses of a robot."""
+
+    def __init__(self):
+        self.poses = collections.deque()
+
+    def add(self, stamp, x, y):
+        if not self.poses or stamp > self.poses[-1][0]:
+            self.poses.append((stamp, x, y))
+
+    def at(self, stamp):
+        """The place at a moment; none before the first pose. Moments come in order."""
+        while len(self.poses) > 1 and self.poses[1][0] <= stamp:
+            self.poses.popleft()
+        first = self.poses[0]
+        if stamp < first[0]:
+            return None
+        if len(self.poses) == 1 or stamp == first[0]:
+            return first[1:]
+        second = self.poses[1]
+        part = (stamp - first[0]) / (second[0] - first[0])
+        return (first[1] + part * (second[1] - first[1]), first[2] + part * (second[2] - first[2]))
+
+
+def poses_of(bag, topic):
+    """Stamps [s], robots and places, as they were recorded."""
+    frame = None
     for _, message, _ in bag.read_messages(topics=[topic]):
+        header = message.pose.header
+        if not header.frame_id:
+            continue
+        frame = frame or header.frame_id
+        if header.frame_id != frame:
+            raise ValueError("poses in two frames, %s and %s" % (frame, header.frame_id))
         at = message.pose.pose.position
-        moments.setdefault(message.pose.header.stamp.to_nsec(), {})[message.robot_id] = (at.x, at.y)
-    return [moments[stamp] for stamp in sorted(moments)]
+        if not (math.isfinite(at.x) and math.isfinite(at.y)):
+            continue
+        yield header.stamp.to_sec(), message.robot_id, at.x, at.y
+
+
+def moments_of(poses, period):
+    """The places of all robots at moments in order, which are stamps of poses."""
+    tracks = {}
+    waiting = collections.deque()
+    latest = -math.inf
+
+    def take():
+        moment = waiting.popleft()
+        places = ((robot, track.at(moment)) for robot, track in tracks.items())
+        return {robot: place for robot, place in places if place}
+
+    for stamp, robot, x, y in poses:
+        tracks.setdefault(robot, Track()).add(stamp, x, y)
+        if stamp >= latest + period:
+            waiting.append(stamp)
+            latest = stamp
+        while waiting and waiting[0] + LAG <= latest:
+            yield take()
+    while waiting:
+        yield take()
 
 
 def least_on_the_way(first, second, then_first, then_second):
@@ -33,24 +91,37 @@ def least_on_the_way(first, second, then_first, then_second):
     return math.hypot(x + part * dx, y + part * dy)
 
 
-def closest(moments, reach):
-    """The least distance, and who: only robots in neighbouring buckets of `reach` are compared."""
-    least, who = math.inf, None
-    for now, then in zip(moments, moments[1:]):
-        buckets = {}
-        for robot, (x, y) in now.items():
-            buckets.setdefault((int(x // reach), int(y // reach)), []).append(robot)
-        for (column, row), robots in buckets.items():
+class Closest:
+    """The least distance so far, and of whom: only robots in neighbouring squares of `reach` are
+    compared."""
+
+    def __init__(self, reach):
+        self.reach = reach
+        self.least, self.who = math.inf, None
+        self.moments = 0
+        self.robots = set()
+
+    def take(self, now, then):
+        here = {robot: place for robot, place in now.items() if robot in then}
+        if len(here) < 2:
+            return
+        self.moments += 1
+        self.robots.update(here)
+        squares = {}
+        for robot, (x, y) in here.items():
+            squares.setdefault((int(x // self.reach), int(y // self.reach)), []).append(robot)
+        for (column, row), robots in squares.items():
             near = [other for i in (-1, 0, 1) for j in (-1, 0, 1)
-                    for other in buckets.get((column + i, row + j), ())]
+                    for other in squares.get((column + i, row + j), ())]
             for robot in robots:
                 for other in near:
-                    if other <= robot or robot not in then or other not in then:
-                        continue
-                    distance = least_on_the_way(now[robot], now[other], then[robot], then[other])
-                    if distance < least:
-                        least, who = distance, (robot, other)
-    return least, who
+                    if other > robot:
+                        self.compare(robot, other, now, then)
+
+    def compare(self, robot, other, now, then):
+        distance = least_on_the_way(now[robot], now[other], then[robot], then[other])
+        if distance < self.least:
+            self.least, self.who = distance, (robot, other)
 
 
 def main():
@@ -61,19 +132,30 @@ def main():
                         help="[m] that two robots have to keep, the sum of their radii")
     parser.add_argument("--reach", type=float, default=4.0,
                         help="[m] robots farther apart are not compared (4)")
+    parser.add_argument("--period", type=float, default=0.05,
+                        help="[s] between moments at least (0.05)")
     parser.add_argument("--topic", default="/progress")
     args = parser.parse_args()
-    with rosbag.Bag(args.bag) as bag:
-        moments = moments_of(bag, args.topic)
-    robots = {robot for moment in moments for robot in moment}
-    if len(moments) < 2 or len(robots) < 2:
-        print("check_distances: fewer than two robots or moments on %s" % args.topic,
-              file=sys.stderr)
-        return 1
-    least, who = closest(moments, args.reach)
-    text = "%.3f m (%s and %s)" % ((least,) + who) if who else "more than %g m" % args.reach
-    print("%d robots, %d moments: the least distance is %s" % (len(robots), len(moments), text))
-    return 0 if least >= args.distance else 2
+    if not 0 < args.distance <= args.reach or args.period <= 0:
+        parser.exit(1, "check_distances: 0 < distance <= reach and 0 < period are expected\n")
+    closest = Closest(args.reach)
+    before = None
+    try:
+        with rosbag.Bag(args.bag) as bag:
+            for now in moments_of(poses_of(bag, args.topic), args.period):
+                if before is not None:
+                    closest.take(before, now)
+                before = now
+    except (OSError, ValueError, rosbag.ROSBagException) as error:
+        parser.exit(1, "check_distances: %s\n" % error)
+    if not closest.moments:
+        parser.exit(1, "check_distances: no two robots at two moments on %s, so there is nothing to "
+                    "compare\n" % args.topic)
+    text = "%.3f m (%s and %s)" % ((closest.least,) + closest.who) if closest.who else (
+        "more than %g m" % args.reach)
+    print("%d robots, %d moments: the least distance is %s" % (
+        len(closest.robots), closest.moments + 1, text))
+    return 0 if closest.least >= args.distance else 2
 
 
 if __name__ == "__main__":

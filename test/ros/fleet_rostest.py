@@ -172,7 +172,8 @@ class Fleet(unittest.TestCase):
         for plan, outcome, word in (
                 (self.elsewhere(), PlanOutcome.INVALID_POSE, "begins"),
                 (self.other_map(), PlanOutcome.INVALID_MAP, "grid"),
-                (self.jumping(), PlanOutcome.INVALID_OPTION, "claims"),
+                (self.jumping(), PlanOutcome.INVALID_OPTION, "jumps"),
+                (self.boasting(), PlanOutcome.INVALID_OPTION, "claims"),
                 (wrong, PlanOutcome.UNKNOWN_ROBOT, "ghost")):
             goal = self.send(plan)
             self.assertTrue(goal.wait_for_end(), fleet.output())
@@ -225,7 +226,13 @@ class Fleet(unittest.TestCase):
 
     def jumping(self):
         plan = self.altered()
-        plan.paths[0].cells = [plan.paths[0].cells[0]] + list(plan.paths[0].cells[2:])
+        cells = plan.paths[0].cells
+        plan.paths[0].cells = [cells[0]] * 2 + cells[2:]
+        return plan
+
+    def boasting(self):
+        plan = self.altered()
+        plan.makespan -= 1
         return plan
 
     def elsewhere(self):
