@@ -10,14 +10,16 @@ namespace {
 // Longer limits would overflow the clock's representation and mean "never" anyway.
 constexpr double kLongestLimitSec = 1e8;
 
+Deadline::Clock::duration toTicks(double seconds) {
+  return std::chrono::duration_cast<Deadline::Clock::duration>(
+      std::chrono::duration<double>(seconds));
+}
+
 }  // namespace
 
 Deadline::Deadline(double seconds, std::shared_ptr<const StopFlag> stop)
     : limited_(seconds >= 0 && seconds < kLongestLimitSec), stop_(std::move(stop)) {
-  if (limited_) {
-    end_ = Clock::now() +
-           std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-  }
+  if (limited_) end_ = Clock::now() + toTicks(seconds);
 }
 
 Deadline Deadline::withStop(std::shared_ptr<const StopFlag> stop) const {
@@ -49,6 +51,12 @@ Deadline Deadline::countedBy(std::shared_ptr<WorkClock> clock) const {
 double Deadline::nowSec() const {
   if (clock_) return clock_->nowSec();
   return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+}
+
+Deadline Deadline::forFinish() const {
+  Deadline other = *this;
+  other.end_ += toTicks(kFinishSec);
+  return other;
 }
 
 double Deadline::remainingSec() const {

@@ -40,8 +40,6 @@ constexpr double kLeastReserveSec = 0.5;
 constexpr std::uint64_t kBudgetWithOthers = 60000;
 // Of a solver that is called for a plan which is only looked at: half a second or so.
 constexpr std::uint64_t kTurnOfOthers = 2000000;
-// A plan that was found in time may be validated so much later.
-constexpr double kFinishSec = 0.2;
 
 }  // namespace
 
@@ -52,7 +50,7 @@ PlanRun::PlanRun(const Instance& instance, CheckedRequest request, const SolverR
       executor_(executor),
       deadline_(deadline),
       solve_deadline_(deadline),
-      finish_deadline_(deadline.remainingSec() + kFinishSec, deadline.stopFlag()),
+      finish_deadline_(deadline.forFinish()),
       log_(listener.progress),
       better_plan_(listener.better_plan),
       solvers_(solvers),

@@ -35,7 +35,9 @@ class PoseDrawer {
   DrawnPoses run() {
     const std::optional<Roadmap> roadmap = buildRoadmap(*draw_.raster, draw_.roadmap, deadline_);
     if (!roadmap) throw Interrupted();
-    findGround();
+    for (std::size_t i = 0; i < roadmap->ground.size(); ++i) {
+      if (roadmap->ground[i] != 0) ground_.push_back(static_cast<std::uint32_t>(i));
+    }
     result_.robots.assign(draw_.robots, RobotPoses{kNowhere, kNowhere});
     std::vector<std::uint32_t> missing(draw_.robots);
     for (std::uint32_t i = 0; i < draw_.robots; ++i) missing[i] = i;
@@ -57,14 +59,6 @@ class PoseDrawer {
   [[noreturn]] void refuse(const std::string& what) const {
     throw OptionError("the map has no room for " + counted(draw_.robots, "robot") +
                       " of this size: not so many " + what);
-  }
-
-  void findGround() {
-    const roadmap::ClearSpace space(*draw_.raster, need_cells_, deadline_);
-    if (space.isEmpty()) throw Interrupted();
-    for (std::size_t i = 0; i < space.cells(); ++i) {
-      if (space.isClear(i)) ground_.push_back(static_cast<std::uint32_t>(i));
-    }
   }
 
   void drawRobot(std::uint32_t robot) {

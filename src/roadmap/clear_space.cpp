@@ -90,18 +90,6 @@ double leastDistance(const ObstacleRaster& raster, Place from, Place to, double 
   return std::sqrt(square);
 }
 
-}  // namespace roadmap
-
-std::vector<bool> freeGround(const ObstacleRaster& raster, double need_m,
-                             const Deadline& deadline) {
-  const roadmap::ClearSpace space(raster, need_m / raster.resolution_m, deadline);
-  std::vector<bool> ground(space.cells());
-  for (std::size_t i = 0; i < ground.size(); ++i) ground[i] = space.isClear(i);
-  return ground;
-}
-
-namespace roadmap {
-
 ClearSpace::ClearSpace(const ObstacleRaster& raster, double radius, const Deadline& deadline)
     : raster_(raster),
       radius_(radius),

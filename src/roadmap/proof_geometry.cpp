@@ -58,8 +58,9 @@ Nearest nearestTo(const ObstacleRaster& raster, Point a, Point b, double far_m) 
     for (std::int32_t x = index(std::min(a.real(), b.real()) - far_m, raster.width); x <= right;
          ++x) {
       if (raster.blocked[raster.indexOf({x, y})] == 0) continue;
-      const double distance =
-          distanceToSquare(a, b, Point((x + 0.5) * side, (y + 0.5) * side), side, far_m);
+      // One that cannot be nearer than the nearest so far is far.
+      const double distance = distanceToSquare(a, b, Point((x + 0.5) * side, (y + 0.5) * side),
+                                               side, nearest.distance_m);
       if (distance < nearest.distance_m) nearest = {distance, false, {x, y}};
     }
   }

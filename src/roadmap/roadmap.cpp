@@ -89,8 +89,9 @@ void requireSomeRoom(const ClearSpace& space, const RoadmapOptions& options) {
                     metres(widest) + " to the nearest obstacle");
 }
 
-Roadmap finish(const CellGraph& graph, const ObstacleRaster& raster, const RoadmapOptions& options,
+Roadmap finish(const CellGraph& graph, const ClearSpace& space, const RoadmapOptions& options,
                std::uint32_t spacing) {
+  const ObstacleRaster& raster = space.raster();
   Roadmap result{raster.width,
                  raster.height,
                  raster.resolution_m,
@@ -99,7 +100,9 @@ Roadmap finish(const CellGraph& graph, const ObstacleRaster& raster, const Roadm
                  spacing,
                  graph.cells,
                  {graph.edges.begin(), graph.edges.end()},
-                 0};
+                 0,
+                 std::vector<std::uint8_t>(space.cells())};
+  for (std::size_t i = 0; i < space.cells(); ++i) result.ground[i] = space.isClear(i) ? 1 : 0;
   for (const auto& [a, b] : result.edges) {
     const Cell from = raster.cellAt(result.cells[a]);
     const Cell to = raster.cellAt(result.cells[b]);
@@ -132,13 +135,12 @@ std::optional<Roadmap> build(const ClearSpace& space, const RoadmapOptions& opti
   const std::vector<Offset> offsets = roadmap::bestOffsets(space, spacing, count, deadline);
   if (offsets.empty() || deadline.expired()) return std::nullopt;
   if (!options.passages) {
-    return finish(roadmap::latticeAt(space, spacing, offsets.front()), space.raster(), options,
-                  spacing);
+    return finish(roadmap::latticeAt(space, spacing, offsets.front()), space, options, spacing);
   }
   const GraphScale scale = scaleOf(options, space.raster().resolution_m, spacing);
   const std::optional<CellGraph> graph = bestGraph(space, scale, offsets, deadline);
   if (!graph) return std::nullopt;
-  return finish(*graph, space.raster(), options, spacing);
+  return finish(*graph, space, options, spacing);
 }
 
 }  // namespace

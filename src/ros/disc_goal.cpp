@@ -155,10 +155,11 @@ std::uint32_t stepsOf(const DiscProblem& problem, const Plan& plan) {
          problem.attachment().arrival.steps;
 }
 
-void addDiscs(const PlanningGrid& grid, const Plan& plan, MultiRobotPlan& message) {
+void addDiscs(const PlanningGrid& grid, const Plan& plan, MultiRobotPlan& message,
+              const Deadline& deadline) {
   const DiscPlacement& discs = *grid.discs;
   const DiscProblem& problem = discs.problem;
-  const DiscCourses ways = problem.coursesOf(plan);
+  const DiscCourses ways = problem.coursesOf(plan, deadline);
   const Legs& away = problem.attachment().departure;
   const Legs& home = problem.attachment().arrival;
   message.robot_radius = problem.roadmap().robot_radius_m;

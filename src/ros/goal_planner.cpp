@@ -16,8 +16,8 @@
 namespace split_mapf {
 namespace {
 
-// More than the limit of a goal, for what is done to a plan that was found within it.
-constexpr double kFinishSec = 0.2;
+// From a cancel on, for what is done to a plan that was found before it.
+constexpr double kFinishCancelledSec = 0.1;
 
 /// Runs a part of the preparation; an option found wrong there becomes a GoalError.
 template <typename Part>
@@ -180,15 +180,29 @@ PlanMessages GoalPlanner::messagesOf(const PreparedGoal& goal, const PlanReport&
   return messages;
 }
 
+std::optional<PlanMessages> GoalPlanner::messagesInTime(const PreparedGoal& goal,
+                                                        const PlanReport& report,
+                                                        const Deadline& deadline) const {
+  try {
+    return messagesOf(goal, report, deadline.forFinish());
+  } catch (const Interrupted&) {
+    if (!deadline.stopRequested()) return std::nullopt;
+  }
+  try {
+    // Nearly all plans take milliseconds: worth to begin anew, and the client has its plan.
+    return messagesOf(goal, report, Deadline(kFinishCancelledSec));
+  } catch (const Interrupted&) {
+    return std::nullopt;
+  }
+}
+
 void GoalPlanner::writePlan(const PreparedGoal& goal, const PlanReport& report,
                             const Deadline& deadline, GoalAnswer& answer) const {
   std::string ended;
-  try {
-    const Deadline end(deadline.remainingSec() + kFinishSec, deadline.stopFlag());
-    PlanMessages messages = messagesOf(goal, report, end);
-    answer.result.plan = std::move(messages.plan);
-    answer.layout = std::move(messages.layout);
-  } catch (const Interrupted&) {
+  if (std::optional<PlanMessages> messages = messagesInTime(goal, report, deadline)) {
+    answer.result.plan = std::move(messages->plan);
+    answer.layout = std::move(messages->layout);
+  } else {
     answer.outcome = Outcome::kTimeout;
     ended = "the time limit passed while a plan was being written into the result; ";
   }

@@ -123,7 +123,7 @@ MultiRobotPlan toMessage(const PlanReport& report, const std::vector<std::string
       out.cells.push_back(grid.geometry.indexOf(grid.grid->cellOf(path[k])));
     }
   }
-  if (grid.discs) addDiscs(grid, *report.plan, message);
+  if (grid.discs) addDiscs(grid, *report.plan, message, deadline);
   return message;
 }
 

@@ -24,8 +24,11 @@ PlanPublisher::PlanPublisher(const ros::NodeHandle& node, ros::NodeHandle privat
 void PlanPublisher::publish(const MultiRobotPlan& plan, const PlanLayout& layout,
                             const PlanningGrid& grid) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  grid_.publish(toMessage(grid, plan.header.stamp));
-  roadmap_.publish(roadmapMarkers(grid, plan.header.stamp));
+  if (last_grid_.lock() != grid.grid) {
+    grid_.publish(toMessage(grid, plan.header.stamp));
+    roadmap_.publish(roadmapMarkers(grid, plan.header.stamp));
+    last_grid_ = grid.grid;
+  }
   layout_.publish(layout);
   plan_.publish(plan);
   if (publish_paths_) publishPaths(plan);

@@ -197,7 +197,7 @@ GoalAnswer PlanServer::planInTurn(ActiveGoal& goal, const PreparedGoal& prepared
   goal.accept();
   PlanListener listener;
   listener.progress = [&goal](const PlanProgress& progress) { goal.update(progress); };
-  const std::shared_ptr<PlanStream> plans = streamOf(prepared);
+  const std::shared_ptr<PlanStream> plans = streamOf(prepared, deadline);
   if (prepared.options.plan.refine_sec > 0) {
     listener.better_plan = [&plans](const PlanReport& report) { plans->offer(report); };
     goal.setStream(plans);
@@ -213,11 +213,14 @@ GoalAnswer PlanServer::planInTurn(ActiveGoal& goal, const PreparedGoal& prepared
   return answer;
 }
 
-std::shared_ptr<PlanStream> PlanServer::streamOf(const PreparedGoal& prepared) {
-  return std::make_shared<PlanStream>([this, &prepared](const PlanReport& report) {
+std::shared_ptr<PlanStream> PlanServer::streamOf(const PreparedGoal& prepared,
+                                                 const Deadline& deadline) {
+  return std::make_shared<PlanStream>([this, &prepared, deadline](const PlanReport& report) {
     try {
-      const PlanMessages messages = planner_.messagesOf(prepared, report);
+      const PlanMessages messages = planner_.messagesOf(prepared, report, deadline);
       publish(messages.plan, messages.layout, prepared.grid);
+    } catch (const Interrupted&) {
+      // The result is on its way, and has a plan at least as good.
     } catch (const std::exception& error) {
       // Too large, most likely; the result will say it of its own plan.
       ROS_ERROR("a better plan could not be published: %s", error.what());

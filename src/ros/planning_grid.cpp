@@ -91,11 +91,6 @@ std::vector<bool> freeCellsOf(const nav_msgs::OccupancyGrid& map, const Occupanc
   return top_down;
 }
 
-std::vector<bool> groundOf(const DiscProblem& problem) {
-  const RoadmapOptions& options = problem.task().roadmap;
-  return freeGround(*problem.task().raster, options.robot_radius_m + options.clearance_m);
-}
-
 }  // namespace
 
 MapGeometry::MapGeometry(const nav_msgs::MapMetaData& info, const std::string& frame_id)
@@ -195,14 +190,14 @@ nav_msgs::OccupancyGrid toMessage(const PlanningGrid& grid, const ros::Time& sta
   const std::size_t width = grid.grid->width();
   const std::size_t height = grid.grid->height();
   message.data.resize(width * height);
-  std::vector<bool> ground;
-  if (grid.discs) ground = groundOf(grid.discs->problem);
+  const auto is_free = [&](std::size_t cell) {
+    return grid.discs ? grid.discs->problem.roadmap().ground[cell] != 0
+                      : grid.grid->numbering().isMarked(cell);
+  };
   for (std::size_t row = 0; row < height; ++row) {
     std::int8_t* const to = message.data.data() + (height - 1 - row) * width;
     for (std::size_t x = 0; x < width; ++x) {
-      const std::size_t cell = row * width + x;
-      const bool free = grid.discs ? ground[cell] : grid.grid->numbering().isMarked(cell);
-      to[x] = free ? 0 : 100;
+      to[x] = is_free(row * width + x) ? 0 : 100;
     }
   }
   return message;

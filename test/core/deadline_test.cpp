@@ -37,6 +37,17 @@ TEST(Deadline, NegativeInfiniteAndHugeMeanNoLimit) {
   }
 }
 
+TEST(Deadline, WhatIsLeftForTheFinishIsNotGivenTwice) {
+  const Deadline over(0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_LT(over.forFinish().remainingSec(), Deadline::kFinishSec - 0.005);
+  EXPECT_GT(Deadline(60).forFinish().remainingSec(), 60);
+  EXPECT_FALSE(Deadline().forFinish().expired());
+  auto stop = std::make_shared<StopFlag>();
+  stop->request();
+  EXPECT_TRUE(Deadline(60, stop).forFinish().expired());
+}
+
 TEST(Deadline, ExpiresWhenTheFlagIsRaised) {
   auto stop = std::make_shared<StopFlag>();
   const Deadline deadline(60, stop);

@@ -56,12 +56,12 @@ std::vector<RobotTask> passingRobots() {
   return tasks;
 }
 
-MultiRobotPlan planFor(const PlacedDiscs& discs) {
+MultiRobotPlan planFor(const PlacedDiscs& discs, const Deadline& of_message = {}) {
   Executor executor(1);
   const PlanReport report = Planner(availableSolvers(), executor)
                                 .plan(discs.grid.discs->problem.instance(), {}, Deadline(60));
   EXPECT_TRUE(report.plan) << report.message;
-  return toMessage(report, discs.ids, discs.grid, 1, ros::Time(100));
+  return toMessage(report, discs.ids, discs.grid, 1, ros::Time(100), of_message);
 }
 
 std::vector<std::string> violationsOf(const MultiRobotPlan& plan,
@@ -89,6 +89,11 @@ TEST(DiscGoal, PathsBeginAndEndExactlyWithTheirHeadings) {
   EXPECT_NEAR(yawOf(plan.paths[0].path.poses.back().pose.orientation), 1.5, 1e-9);
   EXPECT_NE(yawOf(plan.paths[1].path.poses.back().pose.orientation), 0) << "that of its last move";
   EXPECT_EQ(violationsOf(plan, map), std::vector<std::string>());
+}
+
+TEST(DiscGoal, ADeadlineWasNotHeardWhileDiscsWereChecked) {
+  const PlacedDiscs discs = place(twoRooms(13), passingRobots(), optionsFor(0.3));
+  EXPECT_THROW(planFor(discs, Deadline(0)), Interrupted);
 }
 
 TEST(DiscGoal, AnnouncedLengthsHoldForPlansWithLegs) {

@@ -1,6 +1,7 @@
 // The plan server with solvers that wait, fail and throw on demand.
 
 #include <gtest/gtest.h>
+#include <nav_msgs/OccupancyGrid.h>
 #include <ros/ros.h>
 #include <split_mapf/MultiRobotPlan.h>
 #include <split_mapf/PlanOutcome.h>
@@ -11,6 +12,7 @@
 #include <mutex>
 #include <new>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -251,23 +253,36 @@ TEST_F(Queue, CarriesThePlanOfACancelledGoal) {
         while (!deadline.stopRequested()) std::this_thread::yield();
         return result;
       }));
-  const auto goal = send("slow");
-  for (int i = 0; i < 6000 && !found; ++i) ros::WallDuration(0.01).sleep();
-  goal->cancel();
-  expectEnd(*goal, "PREEMPTED", PlanOutcome::CANCELLED);
-  EXPECT_TRUE(found);
-  ASSERT_EQ(goal->result().plan.paths.size(), 2U);
-  EXPECT_EQ(goal->result().plan.makespan, 5U);
+  for (const double radius : {0.0, 0.3}) {
+    PlanPathsGoal message = goalFor("slow");
+    message.options.robot_radius = radius;
+    found = false;
+    TrackedGoal goal(*client_, message);
+    for (int i = 0; i < 6000 && !found; ++i) ros::WallDuration(0.01).sleep();
+    goal.cancel();
+    expectEnd(goal, "PREEMPTED", PlanOutcome::CANCELLED);
+    EXPECT_TRUE(found);
+    ASSERT_EQ(goal.result().plan.paths.size(), 2U) << goal.result().message;
+    EXPECT_EQ(goal.result().plan.makespan, 5U);
+    EXPECT_EQ(goal.result().plan.robot_radius, radius);
+  }
 }
 
-/// The plans on `~plan`, as they came.
-class PlansSeen {
+/// The messages of a topic of the server, as they came.
+template <typename Message>
+class Seen {
  public:
-  std::vector<MultiRobotPlan> all() const {
+  explicit Seen(const std::string& topic)
+      : subscriber_(private_node_.subscribe<Message>(
+            topic, 100, [this](const typename Message::ConstPtr& message) {
+              const std::lock_guard<std::mutex> lock(mutex_);
+              messages_.push_back(*message);
+            })) {}
+  std::vector<Message> all() const {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return plans_;
+    return messages_;
   }
-  bool waitFor(const std::function<bool(const std::vector<MultiRobotPlan>&)>& condition) const {
+  bool waitFor(const std::function<bool(const std::vector<Message>&)>& condition) const {
     for (int i = 0; i < 3000; ++i) {
       if (condition(all())) return true;
       ros::WallDuration(0.01).sleep();
@@ -277,19 +292,16 @@ class PlansSeen {
 
  private:
   mutable std::mutex mutex_;
-  std::vector<MultiRobotPlan> plans_;
+  std::vector<Message> messages_;
   ros::NodeHandle private_node_{"~"};
-  ros::Subscriber subscriber_ = private_node_.subscribe<MultiRobotPlan>(
-      "plan", 100, [this](const MultiRobotPlanConstPtr& plan) {
-        const std::lock_guard<std::mutex> lock(mutex_);
-        plans_.push_back(*plan);
-      });
+  ros::Subscriber subscriber_;
 };
 
 // Its refinement could go on for a minute; there was no plan on ~plan until its end.
 TEST_F(Queue, PublishesPlansOfAGoalThatIsStillRefined) {
   start({8, 1});
-  const PlansSeen seen;
+  const Seen<MultiRobotPlan> seen("plan");
+  const Seen<nav_msgs::OccupancyGrid> grids("planning_grid");
   PlanPathsGoal message = test::hardGoal();
   message.options.solver = "lacam";
   message.options.suboptimality = 0;
@@ -307,6 +319,10 @@ TEST_F(Queue, PublishesPlansOfAGoalThatIsStillRefined) {
   const auto next = send("ecbs");
   expectEnd(*next, "SUCCEEDED", PlanOutcome::SUCCEEDED);
   ASSERT_TRUE(seen.waitFor([](const auto& plans) { return plans.back().paths.size() == 2; }));
+  // The grid was made and sent again with every plan.
+  ASSERT_TRUE(
+      grids.waitFor([](const auto& all) { return !all.empty() && all.back().info.width == 6; }));
+  EXPECT_EQ(grids.all().size(), 2U);
   const std::vector<MultiRobotPlan> plans = seen.all();
   // Nothing between the result's plan and that of the next goal, which is not refined.
   ASSERT_GE(plans.size(), 4U);

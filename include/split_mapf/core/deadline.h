@@ -50,6 +50,7 @@ class WorkClock {
 class Deadline {
  public:
   using Clock = std::chrono::steady_clock;
+  static constexpr double kFinishSec = 0.2;
 
   /// Never expires.
   Deadline() = default;
@@ -64,6 +65,9 @@ class Deadline {
   /// The same flag and limit of time; what within() adds from now on, nowSec() and remainingSec()
   /// are counted by this clock, which each poll makes go on.
   Deadline countedBy(std::shared_ptr<WorkClock> clock) const;
+  /// The same flag, kFinishSec later: for what is done to a plan that was found in time, such as
+  /// validating and writing it. All that is done together has to end by then.
+  Deadline forFinish() const;
 
   bool expired() const { return stopRequested() || timeIsUp(); }
   /// @throws Interrupted when expired.

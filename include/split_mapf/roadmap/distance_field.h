@@ -17,9 +17,4 @@ namespace split_mapf {
 /// taken apart. Cost: O(cells), 4 bytes a cell. Thread-safe.
 std::vector<std::int32_t> distanceField(const ObstacleRaster& raster, const Deadline& deadline);
 
-/// Of each cell, whether the centre of a disc that needs `need_m` around it may stand there. Empty
-/// when the deadline struck. Cost: O(cells). Thread-safe.
-std::vector<bool> freeGround(const ObstacleRaster& raster, double need_m,
-                             const Deadline& deadline = Deadline());
-
 }  // namespace split_mapf

@@ -37,6 +37,8 @@ struct Roadmap {
   /// Each edge once, its lower vertex first, in ascending order; at most four a vertex.
   std::vector<std::pair<Vertex, Vertex>> edges;
   double longest_edge_m = 0;  ///< what a robot has to cover in one step
+  /// Of each cell of the map, row-major: 1 where the centre of such a disc may stand.
+  std::vector<std::uint8_t> ground;
 };
 
 /// The graph as the solvers take it: its vertices are those of the grid, in the same order.

@@ -55,7 +55,8 @@ PlacedDiscs placeDiscs(const std::vector<RobotTask>& tasks, const nav_msgs::Occu
 /// Fills in what a plan's message says of robots that have size. The discs are checked first.
 /// @pre the message was made of `plan` on `grid`, which has discs. @throws as
 /// DiscProblem::coursesOf().
-void addDiscs(const PlanningGrid& grid, const Plan& plan, MultiRobotPlan& message);
+void addDiscs(const PlanningGrid& grid, const Plan& plan, MultiRobotPlan& message,
+              const Deadline& deadline);
 
 /// Steps of the longest way by a plan, legs included.
 std::uint32_t stepsOf(const DiscProblem& problem, const Plan& plan);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -84,6 +85,9 @@ class GoalPlanner {
                             const GoalOptions& options, const Deadline& deadline,
                             const char*& doing) const;
   PreparedGoal prepareDiscs(const GoalOptions& options, PlacedDiscs discs) const;
+  /// Nothing where the goal's limit of time, or a cancel, has not left enough for them.
+  std::optional<PlanMessages> messagesInTime(const PreparedGoal& goal, const PlanReport& report,
+                                             const Deadline& deadline) const;
   /// Puts the messages of a plan into the answer, which says so where the deadline has come before
   /// their end. @pre the report has a plan.
   void writePlan(const PreparedGoal& goal, const PlanReport& report, const Deadline& deadline,

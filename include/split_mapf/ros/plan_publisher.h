@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 
@@ -22,7 +23,8 @@ class PlanPublisher {
   /// `node`.
   PlanPublisher(const ros::NodeHandle& node, ros::NodeHandle private_node, bool publish_paths);
 
-  /// @pre with publish_paths the robots' ROS names are distinct.
+  /// Publishes the grid and the graph only where they are others than the last plan's: of better
+  /// plans for one goal with the first. @pre with publish_paths the robots' ROS names are distinct.
   void publish(const MultiRobotPlan& plan, const PlanLayout& layout, const PlanningGrid& grid);
 
  private:
@@ -31,6 +33,7 @@ class PlanPublisher {
   ros::NodeHandle node_;
   bool publish_paths_;
   std::mutex mutex_;
+  std::weak_ptr<const Grid> last_grid_;  ///< of `~planning_grid` and `~roadmap`
   ros::Publisher plan_;
   ros::Publisher layout_;
   ros::Publisher grid_;

@@ -65,7 +65,7 @@ class PlanServer {
                              const Deadline& deadline);
   GoalAnswer planInTurn(ActiveGoal& goal, const PreparedGoal& prepared, const Deadline& deadline);
   /// The better plans of a goal that is refined go out on `~plan` while it is.
-  std::shared_ptr<PlanStream> streamOf(const PreparedGoal& prepared);
+  std::shared_ptr<PlanStream> streamOf(const PreparedGoal& prepared, const Deadline& deadline);
   void publish(const MultiRobotPlan& plan, const PlanLayout& layout, const PlanningGrid& grid);
   /// @param when  what was cut short: "while the map was being read".
   GoalAnswer stopped(const ActiveGoal& goal, const Deadline& deadline,
