@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Sends a planning goal to the planner node and shows how it goes.
 
-The robots come from a MovingAI .scen, or from a .yaml with poses of robots that have size; the map from a MovingAI .map, a map_server .yaml or, without
---map, from the topic `map` (for instance of: roslaunch split_mapf planner.launch map_file:=FILE).
+The robots come from a MovingAI .scen, or from a .yaml with poses of robots that have size; the map
+from a MovingAI .map, a map_server .yaml or, without --map, from the topic `map` (for instance of:
+roslaunch split_mapf planner.launch map_file:=FILE).
 Files are read by `split_mapf convert`, as by all commands. Ctrl-C cancels the goal.
 
 exit codes: 0 a valid plan, 1 bad usage or bad input, 2 no plan exists, 3 time limit, 4 cancelled,
@@ -26,7 +27,7 @@ import rospy
 from actionlib_msgs.msg import GoalStatus
 from nav_msgs.msg import OccupancyGrid
 
-from split_mapf.msg import PlanOutcome, PlanPathsAction, PlanPathsGoal, RobotTask
+from split_mapf.msg import PlanOptions, PlanOutcome, PlanPathsAction, PlanPathsGoal, RobotTask
 
 OUTCOME_NAMES = {
     value: name
@@ -44,6 +45,9 @@ EXIT_CODES = {
     PlanOutcome.SERVER_BUSY: 5,
     PlanOutcome.INTERNAL_ERROR: 5,
 }
+PASSAGES = {"true": PlanOptions.PASSAGES_ON, "false": PlanOptions.PASSAGES_OFF}
+UNKNOWN_SPACE = {"blocked": PlanOptions.UNKNOWN_SPACE_BLOCKED,
+                 "free": PlanOptions.UNKNOWN_SPACE_FREE}
 STATUS_WORDS = {0: "solved", 2: "unsolvable", 3: "timeout", 4: "cancelled", 6: "no_plan_found",
                 7: "memory_limit"}
 
@@ -147,8 +151,9 @@ def make_goal(args, grid, rows):
     goal = PlanPathsGoal()
     if args.map:
         goal.map = grid
-    if rows and isinstance(rows[0], dict):
-        for robot in rows:
+    poses = [row for row in rows if isinstance(row, dict)]
+    if poses:
+        for robot in poses:
             task = RobotTask(robot_id=robot["id"], radius=robot["radius"] or 0.0)
             stand(task.start, grid, *robot["start"])
             stand(task.goal, grid, *robot["goal"])
@@ -166,11 +171,34 @@ def make_goal(args, grid, rows):
         value = getattr(args, name)
         if value is not None:
             # In a goal 0 stands for the node's parameter, a negative number for zero.
-            setattr(goal.options, name, -1.0 if value == 0 and isinstance(value, float) else value)
+            zero = -1 if name == "ignore_specks" else -1.0
+            has_zero = isinstance(value, float) or name == "ignore_specks"
+            setattr(goal.options, name, zero if value == 0 and has_zero else value)
+    if args.passages:
+        goal.options.passages = PASSAGES[args.passages]
+    if args.unknown_space:
+        goal.options.unknown_space = UNKNOWN_SPACE[args.unknown_space]
+    sized = have_size(args, goal, grid.info.resolution)
+    if poses and not sized:
+        raise InputError("%s: robots at poses need a size, or the node would take them to the "
+                         "centres of their cells: `radius` there, --robot-radius, or robot_radius "
+                         "of the node" % args.scen)
     # The file says where robots that have size are at each step.
-    goal.options.fill_poses = bool(args.output) and (
-        args.robot_radius is not None or any(robot.radius > 0 for robot in goal.robots))
+    goal.options.fill_poses = bool(args.output) and sized
     return goal
+
+
+def have_size(args, goal, resolution):
+    """Whether the node will build a planning graph: as its own rule for goal and parameters."""
+    node = rospy.resolve_name(args.server).rsplit("/", 1)[0]
+
+    def value(name):
+        asked = getattr(args, name)
+        return rospy.get_param("%s/%s" % (node, name), 0) if asked is None else asked
+
+    return (any(robot.radius > 0 for robot in goal.robots) or value("robot_radius") > 0 or
+            value("clearance") > 0 or
+            (value("cell_size") > 0 and abs(value("cell_size") - resolution) > 1e-6 * resolution))
 
 
 class ProgressLine:
@@ -286,10 +314,15 @@ def write_json(path, result, exit_code):
                   for path in plan.paths],
     }
     if plan.longest_step > 0:
+        origin = plan.grid.origin
+        yaw = 2 * math.atan2(origin.orientation.z, origin.orientation.w)
         document.update({
+            "grid": {"resolution": plan.grid.resolution, "width": width, "height": height,
+                     "origin": [origin.position.x, origin.position.y, yaw]},
             "robot_radius": plan.robot_radius,
             "clearance": plan.clearance,
             "longest_step": plan.longest_step,
+            "step_duration": plan.step_duration,
             "departure_steps": plan.departure_steps,
             "arrival_steps": plan.arrival_steps,
             "robots": [path.robot_id for path in plan.paths],
@@ -322,7 +355,8 @@ def parse_arguments(arguments):
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--map", help="MovingAI .map, or map_server .yaml (default: the map on the "
                                       "topic `map`)")
-    parser.add_argument("--scen", required=True, help="MovingAI .scen, or .yaml with poses of robots that have size")
+    parser.add_argument("--scen", required=True,
+                        help="MovingAI .scen, or .yaml with poses of robots that have size")
     parser.add_argument("--agents", type=at_least(0, int), default=0, metavar="N",
                         help="take the first N rows of the scenario; 0: all (0)")
     parser.add_argument("--resolution", type=at_least(1e-6, float), metavar="M",
@@ -343,7 +377,9 @@ def parse_arguments(arguments):
                        ("cell-size", "METRES"), ("snap-distance", "METRES"),
                        ("robot-speed", "M/S")):
         options.add_argument("--" + name, type=at_least(0, float), metavar=unit)
-    options.add_argument("--ignore-specks", type=at_least(1, int), metavar="CELLS")
+    options.add_argument("--ignore-specks", type=at_least(0, int), metavar="CELLS")
+    options.add_argument("--passages", choices=tuple(PASSAGES))
+    options.add_argument("--unknown-space", choices=tuple(UNKNOWN_SPACE))
     options.add_argument("--seed", type=at_least(0, int))
     options.add_argument("--threads", type=at_least(0, int))
     parser.add_argument("--server", default="split_mapf/plan_paths",
