@@ -117,6 +117,8 @@ void readGoalOptions(ParameterReader& reader, GoalOptions& options) {
       PlanOptions::UNKNOWN_SPACE_FREE;
   options.occupancy.occupied_threshold = static_cast<int>(
       reader.readInteger("occupied_threshold", options.occupancy.occupied_threshold, {1, 100}));
+  // Who says a speed and no duration asks for the one that belongs to it, as in a goal.
+  if (options.robot_speed_mps > 0 && !reader.has("step_duration")) options.step_duration_sec = 0;
   reader.read("step_duration", options.step_duration_sec);
   reader.read("fill_poses", options.fill_poses);
 }

@@ -150,6 +150,15 @@ TEST(ReplayOptions, AreWrittenInTheConfigurationFileAsTheyAre) {
   EXPECT_EQ(options.wait_for_viewer, defaults.wait_for_viewer);
 }
 
+TEST(ServerOptions, ASpeedAloneRefusedAllGoalsWithLongerSteps) {
+  XmlRpcValue p;
+  p["robot_speed"] = 0.5;
+  const GoalOptions derived = mergeOptions({}, readServerOptions(p).goal);
+  EXPECT_EQ(stepDurationOf(derived, 1.2), 2.4);
+  p["step_duration"] = 3;
+  EXPECT_EQ(stepDurationOf(readServerOptions(p).goal, 1.2), 3);
+}
+
 TEST(ServerOptions, ReadEveryParameter) {
   const ServerOptions options = readServerOptions(unusualParameters());
   EXPECT_EQ(options.goal.plan.solver, "prioritized");

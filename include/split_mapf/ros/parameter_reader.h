@@ -18,6 +18,7 @@ class ParameterReader {
   /// @param parameters  a struct of name and value, or an invalid value when there are none.
   explicit ParameterReader(const XmlRpc::XmlRpcValue& parameters) : parameters_(parameters) {}
 
+  bool has(const std::string& name) { return find(name) != nullptr; }
   void read(const std::string& name, std::string& target);
   void read(const std::string& name, bool& target);
   /// An integer is a number too.
