@@ -13,7 +13,8 @@ namespace {
 constexpr std::int8_t kFree = 0;
 constexpr std::int8_t kOccupied = 100;
 
-/// Whether the file has the form of map_server, else of MovingAI.
+}  // namespace
+
 bool isMapServerFile(const std::string& path) {
   const std::string extension = lowerCase(std::filesystem::path(path).extension().string());
   if (extension == ".yaml" || extension == ".yml") return true;
@@ -21,8 +22,6 @@ bool isMapServerFile(const std::string& path) {
   throw InputError(path + ": cannot tell the form of this map, expected a MovingAI .map or a " +
                    "map_server .yaml");
 }
-
-}  // namespace
 
 std::shared_ptr<const Grid> readMap(const std::string& path, const OccupancyRule& rule) {
   return isMapServerFile(path) ? readMapServerMap(path, rule).grid : readMovingAiMap(path);

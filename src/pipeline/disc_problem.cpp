@@ -46,19 +46,19 @@ double longestLeg(const Roadmap& roadmap, const std::vector<Vertex>& vertices,
                   const std::vector<MapPoint>& poses) {
   double longest = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const std::uint32_t cell = roadmap.cells[vertices[i]];
-    const std::uint32_t row = cell / roadmap.width;
-    const double x = (cell % roadmap.width + 0.5) * roadmap.resolution_m;
-    const double y = (row + 0.5) * roadmap.resolution_m;
-    longest = std::max(longest, std::hypot(x - poses[i].x, y - poses[i].y));
+    const MapPoint place = placeOf(roadmap, vertices[i]);
+    longest = std::max(longest, std::hypot(place.x - poses[i].x, place.y - poses[i].y));
   }
   return longest;
 }
 
 }  // namespace
 
-bool asksForRoadmap(const RoadmapOptions& options) {
-  return options.robot_radius_m != 0 || options.cell_size_m != 0 || options.clearance_m != 0;
+bool asksForRoadmap(const RoadmapOptions& options, double resolution_m) {
+  if (options.robot_radius_m != 0 || options.clearance_m != 0) return true;
+  // A message's resolution is a 32-bit number, a cell size a 64-bit one.
+  return options.cell_size_m != 0 &&
+         std::abs(options.cell_size_m - resolution_m) > 1e-6 * resolution_m;
 }
 
 AttachmentError::AttachmentError(std::vector<AttachmentFault> faults,

@@ -5,12 +5,6 @@
 namespace split_mapf {
 namespace {
 
-MapPoint placeOf(const Roadmap& roadmap, Vertex v) {
-  const std::uint32_t column = roadmap.cells[v] % roadmap.width;
-  const std::uint32_t row = roadmap.cells[v] / roadmap.width;
-  return {(column + 0.5) * roadmap.resolution_m, (row + 0.5) * roadmap.resolution_m};
-}
-
 /// A robot that has arrived needs no further entries.
 void trim(Course& course) {
   while (course.size() > 1 && course[course.size() - 2].x == course.back().x &&

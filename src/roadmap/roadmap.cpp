@@ -145,6 +145,12 @@ std::optional<Roadmap> build(const ClearSpace& space, const RoadmapOptions& opti
 
 }  // namespace
 
+MapPoint placeOf(const Roadmap& roadmap, Vertex v) {
+  const std::uint32_t column = roadmap.cells[v] % roadmap.width;
+  const std::uint32_t row = roadmap.cells[v] / roadmap.width;
+  return {(column + 0.5) * roadmap.resolution_m, (row + 0.5) * roadmap.resolution_m};
+}
+
 std::shared_ptr<const Grid> gridOf(const Roadmap& roadmap) {
   return std::make_shared<const Grid>(roadmap.width, roadmap.height, roadmap.cells, roadmap.edges);
 }

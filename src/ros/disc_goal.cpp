@@ -85,15 +85,6 @@ class DiscReader {
   std::vector<geometry_msgs::Pose> goals_;
 };
 
-RoadmapOptions roadmapOptionsOf(const GoalOptions& options) {
-  RoadmapOptions roadmap;
-  roadmap.robot_radius_m = options.robot_radius_m;
-  roadmap.clearance_m = options.clearance_m;
-  roadmap.cell_size_m = options.cell_size_m;
-  roadmap.passages = options.passages;
-  return roadmap;
-}
-
 DiscProblem attach(DiscTask task, TaskReader& reader, const Deadline& deadline) {
   try {
     return DiscProblem(std::move(task), deadline);
@@ -115,10 +106,7 @@ bool asksForRoadmap(const GoalOptions& options, const std::vector<RobotTask>& ta
                   [](const RobotTask& task) { return task.radius != 0; })) {
     return true;
   }
-  if (options.robot_radius_m > 0 || options.clearance_m > 0) return true;
-  // A resolution comes as a 32-bit number, a cell size as a 64-bit one.
-  return options.cell_size_m > 0 &&
-         std::abs(options.cell_size_m - resolution_m) > 1e-6 * resolution_m;
+  return asksForRoadmap(options.roadmap, resolution_m);
 }
 
 void requireNoGraphOptions(const PlanOptions& asked) {
@@ -139,7 +127,7 @@ PlacedDiscs placeDiscs(const std::vector<RobotTask>& tasks, const nav_msgs::Occu
   task.robots = discs.read();
   task.raster = std::make_shared<const ObstacleRaster>(std::move(raster));
   task.frame = frameOf(geometry);
-  task.roadmap = roadmapOptionsOf(options);
+  task.roadmap = options.roadmap;
   task.snap_distance_m = options.snap_distance_m;
   const std::vector<std::string> ids = discs.reader().ids();
   for (const std::string& id : ids) task.names.push_back("robot " + quote(id));

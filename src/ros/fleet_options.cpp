@@ -60,7 +60,7 @@ FleetServerOptions readFleetOptions(const XmlRpc::XmlRpcValue& parameters,
   options.execution_file = default_file;
   ParameterReader reader(parameters);
   readAll(reader, options);
-  options.robot_radius_m = options.server.goal.robot_radius_m;
+  options.robot_radius_m = options.server.goal.roadmap.robot_radius_m;
   options.server.goal.plan.objective = Objective::kSumOfCosts;
   if (!(options.replan_budget_sec >= 0 && options.replan_budget_sec <= kMostSeconds)) {
     throw OptionError("replan_budget " + numeral(options.replan_budget_sec) +

@@ -48,9 +48,9 @@ void checkThreshold(int threshold) {
 void checkNumbers(const GoalOptions& options) {
   requireWithin(options.plan.time_limit_sec, "time_limit", 0, kMostSeconds);
   requireWithin(options.plan.refine_sec, "refine_time", 0, kMostSeconds);
-  requireWithin(options.robot_radius_m, "robot_radius", 0, kMostMetres);
-  requireWithin(options.cell_size_m, "cell_size", 0, kMostMetres);
-  requireWithin(options.clearance_m, "clearance", 0, kMostMetres);
+  requireWithin(options.roadmap.robot_radius_m, "robot_radius", 0, kMostMetres);
+  requireWithin(options.roadmap.cell_size_m, "cell_size", 0, kMostMetres);
+  requireWithin(options.roadmap.clearance_m, "clearance", 0, kMostMetres);
   requireWithin(options.snap_distance_m, "snap_distance", 0, kMostMetres);
   requireWithin(options.robot_speed_mps, "robot_speed", 0, kMostSpeed);
   if (options.step_duration_sec != 0) {
@@ -100,11 +100,11 @@ void readPlanRequest(ParameterReader& reader, PlanRequest& plan) {
 
 void readGoalOptions(ParameterReader& reader, GoalOptions& options) {
   readPlanRequest(reader, options.plan);
-  reader.read("robot_radius", options.robot_radius_m);
-  reader.read("cell_size", options.cell_size_m);
-  reader.read("clearance", options.clearance_m);
+  reader.read("robot_radius", options.roadmap.robot_radius_m);
+  reader.read("cell_size", options.roadmap.cell_size_m);
+  reader.read("clearance", options.roadmap.clearance_m);
   reader.read("snap_distance", options.snap_distance_m);
-  reader.read("passages", options.passages);
+  reader.read("passages", options.roadmap.passages);
   options.ignore_specks = static_cast<std::uint32_t>(
       reader.readInteger("ignore_specks", options.ignore_specks, {0, kMaxUint32}));
   reader.read("robot_speed", options.robot_speed_mps);
@@ -175,11 +175,11 @@ GoalOptions mergeOptions(const PlanOptions& asked, const GoalOptions& defaults) 
   plan.refine_sec = choose(asked.refine_time, plan.refine_sec);
   if (asked.seed != 0) plan.seed = asked.seed;
   if (asked.threads != 0) plan.threads = asked.threads;
-  options.robot_radius_m = choose(asked.robot_radius, options.robot_radius_m);
-  options.cell_size_m = choose(asked.cell_size, options.cell_size_m);
-  options.clearance_m = choose(asked.clearance, options.clearance_m);
+  options.roadmap.robot_radius_m = choose(asked.robot_radius, options.roadmap.robot_radius_m);
+  options.roadmap.cell_size_m = choose(asked.cell_size, options.roadmap.cell_size_m);
+  options.roadmap.clearance_m = choose(asked.clearance, options.roadmap.clearance_m);
   options.snap_distance_m = choose(asked.snap_distance, options.snap_distance_m);
-  options.passages = areOn(asked.passages, options.passages);
+  options.roadmap.passages = areOn(asked.passages, options.roadmap.passages);
   if (asked.ignore_specks != 0) {
     options.ignore_specks = static_cast<std::uint32_t>(std::max(0, asked.ignore_specks));
   }

@@ -91,7 +91,7 @@ ExitCode runRender(const Call& call) {
   line.offerFlag("regions", "show the regions, buffers and intermediate states of a space split");
   line.offer("phase", "N", "with --regions: the phase to show, from 0 on (0)");
   line.offer("scale", "PIXELS", "pixels a cell, 1 to 256 (so that the picture has about 1000)");
-  declareRobotOptions(line);
+  declareRobotSize(line);
   if (!line.parse(call.arguments)) return ExitCode::kOk;
   const RobotOptions robots = readRobotOptions(line);
   PictureOptions options;
@@ -105,7 +105,6 @@ ExitCode runRender(const Call& call) {
     tell(output, picture, readDiscPlanJson(line.text("plan")).poses.size());
     return ExitCode::kOk;
   }
-  requireNoGraphOptions(line);
   const auto grid = readMapOfPoints(line.text("map"), robots);
   const CellPaths paths = readPlanJson(line.text("plan"));
   if (paths.empty()) throw InputError(line.text("plan") + ": its `paths` are empty: no plan");

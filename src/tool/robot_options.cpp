@@ -1,8 +1,5 @@
 #include "tool/robot_options.h"
 
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
 #include <limits>
 #include <string>
 #include <vector>
@@ -24,17 +21,21 @@ bool readEither(const CommandLine& line, const std::string& name, const std::str
 
 }  // namespace
 
-void declareRobotOptions(CommandLine& line) {
+void declareRobotSize(CommandLine& line) {
   line.offer("robot-radius", "METRES", "robots are discs of this radius (0: points)");
   line.offer("clearance", "METRES", "distance kept beyond the radius (0)");
   line.offer("cell-size", "METRES",
              "spacing of the planning lattice; at least 2.83 times radius and clearance (0: that)");
+  line.offer("ignore-specks", "CELLS", "occupied blobs of at most so many cells count as free (0)");
+  line.offer("unknown-space", "blocked|free", "what an unknown cell of the map is (blocked)");
+}
+
+void declareRobotOptions(CommandLine& line) {
+  declareRobotSize(line);
   line.offer("snap-distance", "METRES",
              "greatest straight way between a pose and its vertex (0: one cell size)");
   line.offer("passages", "true|false",
              "lay chains of vertices through passages that the lattice misses (true)");
-  line.offer("ignore-specks", "CELLS", "occupied blobs of at most so many cells count as free (0)");
-  line.offer("unknown-space", "blocked|free", "what an unknown cell of the map is (blocked)");
 }
 
 RobotOptions readRobotOptions(const CommandLine& line) {
@@ -47,7 +48,7 @@ RobotOptions readRobotOptions(const CommandLine& line) {
   options.ignore_specks = static_cast<std::uint32_t>(
       line.wholeNumber("ignore-specks", 0, 0, std::numeric_limits<std::uint32_t>::max()));
   options.occupancy.unknown_is_free = readEither(line, "unknown-space", "free", "blocked", false);
-  if (line.declares("robot-speed")) options.robot_speed_mps = line.number("robot-speed", 0, 0);
+  options.robot_speed_mps = line.number("robot-speed", 0, 0);
   return options;
 }
 
@@ -81,10 +82,7 @@ std::shared_ptr<const Grid> readMapOfPoints(const std::string& path, const Robot
 }
 
 OccupancyMap readMapInMetres(const std::string& path, const RobotOptions& options) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".map") {
+  if (!isMapServerFile(path)) {
     throw InputError(path +
                      ": a MovingAI map has no metres; robots that have size, unknown cells and "
                      "specks need a map_server .yaml");

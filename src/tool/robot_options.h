@@ -20,9 +20,12 @@ struct RobotOptions {
   double robot_speed_mps = 0;  ///< 0: unknown
 };
 
-/// Declares --robot-radius and all that goes with it.
+/// Declares what says which ground robots may stand on: --robot-radius, --clearance, --cell-size,
+/// --ignore-specks, --unknown-space.
+void declareRobotSize(CommandLine& line);
+/// Declares also how planning graphs are made: --snap-distance, --passages.
 void declareRobotOptions(CommandLine& line);
-/// Reads them. @throws OptionError. @pre line.parse() returned true
+/// Reads what is declared. @throws OptionError. @pre line.parse() returned true
 RobotOptions readRobotOptions(const CommandLine& line);
 /// Declares --robot-speed.
 void declareRobotSpeed(CommandLine& line);

@@ -72,13 +72,12 @@ ExitCode runValidate(const Call& call) {
   line.require("map", "FILE", "MovingAI .map, or map_server .yaml");
   line.require("scen", "FILE", "MovingAI .scen, or .yaml with poses of robots");
   line.require("plan", "FILE", "JSON with `paths`, as `plan --output` writes it");
-  declareRobotOptions(line);
+  declareRobotSize(line);
   if (!line.parse(call.arguments)) return ExitCode::kOk;
   const RobotOptions options = readRobotOptions(line);
   if (asksForRoadmap(options.roadmap) || isPoseScenario(line.text("scen"))) {
     return validateDiscs(line);
   }
-  requireNoGraphOptions(line);
   const auto grid = readMapOfPoints(line.text("map"), options);
   const CellPaths paths = readPlanJson(line.text("plan"));
   if (paths.empty()) throw InputError(line.text("plan") + ": its `paths` are empty: no plan");

@@ -16,7 +16,7 @@
 #include "split_mapf/pipeline/planner.h"
 #include "split_mapf/pipeline/pose_generator.h"
 #include "support/benchmarks.h"
-#include "support/course_checker.h"
+#include "support/course_collision.h"
 #include "support/long_run.h"
 
 namespace split_mapf {
@@ -34,23 +34,6 @@ struct Answer {
   std::uint32_t left_out = 0;
   double plan_sec = 0;
 };
-
-std::optional<std::string> collisionOf(const DiscProblem& problem,
-                                       const std::vector<Course>& ways) {
-  const ObstacleRaster& raster = *problem.task().raster;
-  const double radius = problem.roadmap().robot_radius_m;
-  std::vector<test::DiscCourse> courses;
-  for (const Course& way : ways) {
-    courses.emplace_back();
-    for (const MapPoint& p : way) {
-      courses.back().x.push_back(p.x);
-      courses.back().y.push_back(p.y);
-    }
-  }
-  return findDiscCollision(
-      {raster.width, raster.height, raster.resolution_m, raster.blocked, radius, 2 * radius},
-      courses);
-}
 
 Answer serve(const PoseDraw& draw) {
   Answer answer;
@@ -71,8 +54,8 @@ Answer serve(const PoseDraw& draw) {
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (!report.plan) {
       answer.why_not = toString(report.termination) + ": " + report.message;
-    } else if (const auto collision =
-                   collisionOf(problem, problem.coursesOf(*report.plan).courses)) {
+    } else if (const auto collision = test::collisionOf(*draw.raster, draw.roadmap.robot_radius_m,
+                                                        problem.coursesOf(*report.plan).courses)) {
       ADD_FAILURE() << *collision;
       answer.why_not = *collision;
     }

@@ -11,7 +11,7 @@
 #include "solver/available/available_solvers.h"
 #include "split_mapf/pipeline/planner.h"
 #include "split_mapf/pipeline/pose_generator.h"
-#include "support/course_checker.h"
+#include "support/course_collision.h"
 #include "support/drawn_rooms.h"
 
 namespace split_mapf {
@@ -38,18 +38,7 @@ DiscTask drawTask(std::uint64_t seed, std::uint32_t robots, double radius) {
 
 /// By the checker of the test tree, which allows one distance from walls and one between discs.
 void expectDiscsApart(const DiscTask& task, const std::vector<Course>& ways, double radius) {
-  std::vector<test::DiscCourse> courses;
-  for (const Course& way : ways) {
-    courses.emplace_back();
-    for (const MapPoint& p : way) {
-      courses.back().x.push_back(p.x);
-      courses.back().y.push_back(p.y);
-    }
-  }
-  const auto collision =
-      test::findDiscCollision({task.raster->width, task.raster->height, kResolutionM,
-                               task.raster->blocked, radius, 2 * radius},
-                              courses);
+  const auto collision = test::collisionOf(*task.raster, radius, ways);
   EXPECT_EQ(collision, std::nullopt) << *collision;
 }
 

@@ -38,7 +38,7 @@ nav_msgs::OccupancyGrid twoRooms(int door) {
 
 GoalOptions optionsFor(double radius) {
   GoalOptions options;
-  options.robot_radius_m = radius;
+  options.roadmap.robot_radius_m = radius;
   return options;
 }
 
@@ -209,9 +209,9 @@ TEST(DiscGoal, AsksForAGraphOnlyWhereSomethingHasSize) {
   const std::vector<RobotTask> points = passingRobots();
   EXPECT_FALSE(asksForRoadmap({}, points, 0.05));
   GoalOptions options;
-  options.cell_size_m = 0.05;
+  options.roadmap.cell_size_m = 0.05;
   EXPECT_FALSE(asksForRoadmap(options, points, 0.05F)) << "the map's own cells";
-  options.cell_size_m = 0.5;
+  options.roadmap.cell_size_m = 0.5;
   EXPECT_TRUE(asksForRoadmap(options, points, 0.05));
   EXPECT_TRUE(asksForRoadmap(optionsFor(0.1), points, 0.05));
   std::vector<RobotTask> sized = points;

@@ -61,11 +61,11 @@ void expectEqual(const GoalOptions& a, const GoalOptions& b) {
   expectEqual(a.plan, b.plan);
   EXPECT_EQ(a.occupancy.occupied_threshold, b.occupancy.occupied_threshold);
   EXPECT_EQ(a.occupancy.unknown_is_free, b.occupancy.unknown_is_free);
-  EXPECT_EQ(a.robot_radius_m, b.robot_radius_m);
-  EXPECT_EQ(a.cell_size_m, b.cell_size_m);
-  EXPECT_EQ(a.clearance_m, b.clearance_m);
+  EXPECT_EQ(a.roadmap.robot_radius_m, b.roadmap.robot_radius_m);
+  EXPECT_EQ(a.roadmap.cell_size_m, b.roadmap.cell_size_m);
+  EXPECT_EQ(a.roadmap.clearance_m, b.roadmap.clearance_m);
   EXPECT_EQ(a.snap_distance_m, b.snap_distance_m);
-  EXPECT_EQ(a.passages, b.passages);
+  EXPECT_EQ(a.roadmap.passages, b.roadmap.passages);
   EXPECT_EQ(a.ignore_specks, b.ignore_specks);
   EXPECT_EQ(a.robot_speed_mps, b.robot_speed_mps);
   EXPECT_EQ(a.step_duration_sec, b.step_duration_sec);
@@ -112,8 +112,8 @@ TEST(ServerOptions, HaveTheDefaultsOfTheInterface) {
   EXPECT_EQ(options.goal.plan.refine_sec, 0);
   EXPECT_EQ(options.goal.plan.seed, 0U);
   EXPECT_EQ(options.goal.plan.threads, 0U);
-  EXPECT_EQ(options.goal.robot_radius_m, 0);
-  EXPECT_EQ(options.goal.cell_size_m, 0);
+  EXPECT_EQ(options.goal.roadmap.robot_radius_m, 0);
+  EXPECT_EQ(options.goal.roadmap.cell_size_m, 0);
   EXPECT_FALSE(options.goal.occupancy.unknown_is_free);
   EXPECT_EQ(options.goal.occupancy.occupied_threshold, 65);
   EXPECT_EQ(options.goal.step_duration_sec, 1);
@@ -171,11 +171,11 @@ TEST(ServerOptions, ReadEveryParameter) {
   EXPECT_EQ(options.goal.plan.refine_sec, 2.5);
   EXPECT_EQ(options.goal.plan.seed, 42U);
   EXPECT_EQ(options.goal.plan.threads, 3U);
-  EXPECT_EQ(options.goal.robot_radius_m, 0.25);
-  EXPECT_EQ(options.goal.cell_size_m, 0.5);
-  EXPECT_EQ(options.goal.clearance_m, 0.05);
+  EXPECT_EQ(options.goal.roadmap.robot_radius_m, 0.25);
+  EXPECT_EQ(options.goal.roadmap.cell_size_m, 0.5);
+  EXPECT_EQ(options.goal.roadmap.clearance_m, 0.05);
   EXPECT_EQ(options.goal.snap_distance_m, 1.5);
-  EXPECT_FALSE(options.goal.passages);
+  EXPECT_FALSE(options.goal.roadmap.passages);
   EXPECT_EQ(options.goal.ignore_specks, 2U);
   EXPECT_EQ(options.goal.robot_speed_mps, 0.75);
   EXPECT_TRUE(options.goal.occupancy.unknown_is_free);
@@ -277,11 +277,11 @@ TEST(MergeOptions, TakesWhatTheGoalSays) {
   EXPECT_EQ(options.plan.refine_sec, 1);
   EXPECT_EQ(options.plan.seed, 7U);
   EXPECT_EQ(options.plan.threads, 1U);
-  EXPECT_EQ(options.robot_radius_m, 0.1);
-  EXPECT_EQ(options.cell_size_m, 1);
-  EXPECT_EQ(options.clearance_m, 0.02);
+  EXPECT_EQ(options.roadmap.robot_radius_m, 0.1);
+  EXPECT_EQ(options.roadmap.cell_size_m, 1);
+  EXPECT_EQ(options.roadmap.clearance_m, 0.02);
   EXPECT_EQ(options.snap_distance_m, 2);
-  EXPECT_FALSE(options.passages);
+  EXPECT_FALSE(options.roadmap.passages);
   EXPECT_EQ(options.ignore_specks, 3U);
   EXPECT_EQ(options.robot_speed_mps, 0.5);
   EXPECT_FALSE(options.occupancy.unknown_is_free);
@@ -300,8 +300,8 @@ TEST(MergeOptions, TakesANegativeNumberForZero) {
   const GoalOptions options = mergeOptions(asked, readServerOptions(unusualParameters()).goal);
   EXPECT_EQ(options.plan.time_limit_sec, 0);
   EXPECT_EQ(options.plan.refine_sec, 0);
-  EXPECT_EQ(options.robot_radius_m, 0);
-  EXPECT_EQ(options.cell_size_m, 0);
+  EXPECT_EQ(options.roadmap.robot_radius_m, 0);
+  EXPECT_EQ(options.roadmap.cell_size_m, 0);
   EXPECT_EQ(options.plan.suboptimality, 0);
 }
 

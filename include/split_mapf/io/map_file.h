@@ -10,8 +10,11 @@
 
 namespace split_mapf {
 
-/// Reads a map of either form, told by the file's extension in any case: MovingAI `.map`, or
-/// map_server `.yaml` or `.yml`. `rule` only matters for the latter.
+/// Whether a map has the form of map_server, else of MovingAI, by the file's extension in any case:
+/// `.yaml` or `.yml`, and `.map`. @throws InputError for another one.
+bool isMapServerFile(const std::string& path);
+
+/// Reads a map of either form. `rule` only matters for that of map_server.
 /// @throws InputError for another extension and for whatever the two readers refuse.
 std::shared_ptr<const Grid> readMap(const std::string& path, const OccupancyRule& rule = {});
 

@@ -27,8 +27,9 @@ struct DiscTask {
   double snap_distance_m = 0;  ///< greatest length of a leg; 0: one spacing of the lattice
 };
 
-/// Whether robots have size, or their cells are to be larger than the map's.
-bool asksForRoadmap(const RoadmapOptions& options);
+/// Whether robots have size, or their cells are to be others than the map's, where its resolution
+/// is known (0: it is not).
+bool asksForRoadmap(const RoadmapOptions& options, double resolution_m = 0);
 
 /// Robots that cannot be brought onto the planning graph, all of them; what() explains the first.
 class AttachmentError : public InputError {

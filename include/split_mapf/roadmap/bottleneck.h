@@ -22,7 +22,7 @@ struct Bottleneck {
 /// with a place off the raster; nothing at all when the deadline struck.
 /// Ways go from cell to cell by their four sides, and distances are those of their centres: a way
 /// in the plane may be wider than the one found, by up to half the diagonal of a cell (0.71 sides).
-/// By joining cells in the order of their distance (Kruskal 1956). Cost: O(cells), 8 bytes a cell.
+/// By joining cells in the order of their distance (Kruskal 1956). Cost: O(cells), 12 bytes a cell.
 /// Thread-safe.
 std::vector<std::optional<Bottleneck>> findBottlenecks(
     const ObstacleRaster& raster, const std::vector<std::pair<MapPoint, MapPoint>>& pairs,

@@ -8,6 +8,7 @@
 
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/grid.h"
+#include "split_mapf/roadmap/map_frame.h"
 #include "split_mapf/roadmap/obstacle_raster.h"
 
 namespace split_mapf {
@@ -40,6 +41,9 @@ struct Roadmap {
   /// Of each cell of the map, row-major: 1 where the centre of such a disc may stand.
   std::vector<std::uint8_t> ground;
 };
+
+/// Where a vertex lies on the raster.
+MapPoint placeOf(const Roadmap& roadmap, Vertex v);
 
 /// The graph as the solvers take it: its vertices are those of the grid, in the same order.
 std::shared_ptr<const Grid> gridOf(const Roadmap& roadmap);

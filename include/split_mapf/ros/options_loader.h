@@ -9,6 +9,7 @@
 
 #include "split_mapf/io/occupancy.h"
 #include "split_mapf/pipeline/planner.h"
+#include "split_mapf/roadmap/roadmap.h"
 
 namespace split_mapf {
 
@@ -16,11 +17,8 @@ namespace split_mapf {
 struct GoalOptions {
   PlanRequest plan;
   OccupancyRule occupancy;
-  double robot_radius_m = 0;
-  double cell_size_m = 0;  ///< 0: the smallest that the robots allow
-  double clearance_m = 0;
-  double snap_distance_m = 0;  ///< 0: one cell size
-  bool passages = true;
+  RoadmapOptions roadmap;
+  double snap_distance_m = 0;       ///< 0: one cell size
   std::uint32_t ignore_specks = 0;  ///< [cells]
   double robot_speed_mps = 0;       ///< 0: unknown
   double step_duration_sec = 1;     ///< one time step; 0: derived from the speed, or 1
