@@ -7,6 +7,7 @@
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
 #include "split_mapf/io/movingai.h"
+#include "split_mapf/io/pose_scenario.h"
 
 namespace split_mapf {
 namespace {
@@ -111,6 +112,9 @@ Scenario readScenario(const std::string& path, MapSize size, const Grid* grid,
                       std::optional<std::uint32_t> agents) {
   if (agents && *agents == 0) {
     throw InputError("0 robots asked of " + path + ", expected 1 or more");
+  }
+  if (isPoseScenario(path)) {
+    throw InputError(path + ": holds poses of robots that have size, expected a MovingAI .scen");
   }
   return ScenarioReader(path, size, grid).read(agents);
 }

@@ -142,6 +142,12 @@ DiscClaims readDiscPlanJson(const std::string& path) {
 
 CellPaths readPlanJson(const std::string& path) {
   const Json document = parse(path, readFile(path));
+  const auto poses = document.find("poses");
+  if (poses != document.end() && !poses->empty()) {
+    fail(path,
+         "read a plan of robots that have size, expected one of cells (validate and render take "
+         "both: with --robot-radius, --cell-size or a scenario of poses)");
+  }
   const Json& lists = document.at("paths");
   if (!lists.is_array()) fail(path, "paths: read " + shown(lists) + ", expected a list of paths");
   CellPaths paths;

@@ -233,6 +233,18 @@ class PosesTest(CommandTest):
                             "--robot-radius", 0.3)
         self.expect_refusal("--snap-distance", "plan", "--map", "grid.map", "--scen", "grid.scen",
                             "--snap-distance", 1)
+        # validate and render made nothing of it.
+        self.plan(0)
+        for command in (["validate"], ["render", "--output", "plan.png"]):
+            self.expect_refusal("snap-distance", *command, "--map", "rooms.yaml", "--scen",
+                                "poses.yaml", "--plan", "plan.json", "--snap-distance", 1)
+        # Those that know no sizes spoke of 'version 1' and of jumps.
+        self.write_problem("rooms", ["." * 143] * 90, [((20, 49), (130, 49)), ((122, 23), (20, 65))])
+        for command in (["check"], ["bench", "--agents", 2]):
+            text = self.expect(1, *command, "--map", "rooms.yaml", "--scen", "poses.yaml").stderr
+            self.assertIn("poses.yaml: holds poses of robots that have size", text)
+        self.expect_refusal("plan.json: read a plan of robots that have size", "simulate", "--map",
+                            "rooms.yaml", "--scen", "rooms.scen", "--plan", "plan.json")
         self.write_map("rooms", ["."], resolution=1)
         self.write("poses.yaml", "robots:\n- {id: a, start: [0.5, 0.5, 0], goal: [0.5, 0.5, 0]}\n")
         self.plan(0)

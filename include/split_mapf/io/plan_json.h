@@ -68,7 +68,8 @@ DiscClaims readDiscPlanJson(const std::string& path);
 /// Reads the `paths` of such a file; the other fields are left alone. What the paths claim is not
 /// judged: an empty path, a jump or a cell outside the map is validate()'s to report.
 /// @throws InputError "path:line: ..." for malformed JSON; "path: ..." for a missing or second
-/// `paths` and for a coordinate that is no 32-bit integer, naming robot and step.
+/// `paths`, for a coordinate that is no 32-bit integer, naming robot and step, and for a plan of
+/// robots that have size.
 CellPaths readPlanJson(const std::string& path);
 /// Reads the `layout` of such a file; nothing when it is null. @throws InputError "path: ..." for a
 /// layout that is none of `grid`: too few or too many cells, an owner of a blocked cell, a state
