@@ -16,7 +16,8 @@ std::uint32_t Pieces::of(std::uint32_t cell) const {
   return cell;
 }
 
-std::uint32_t Pieces::find(std::uint32_t cell) {
+// Both are called for each cell of the map, and only here.
+inline std::uint32_t Pieces::find(std::uint32_t cell) {
   while (parents_[cell] >= 0) {
     const auto parent = static_cast<std::uint32_t>(parents_[cell]);
     if (parents_[parent] >= 0) parents_[cell] = parents_[parent];
@@ -25,14 +26,13 @@ std::uint32_t Pieces::find(std::uint32_t cell) {
   return cell;
 }
 
-void Pieces::unite(std::uint32_t a, std::uint32_t b) {
-  a = find(a);
-  b = find(b);
-  if (a == b) return;
+inline std::uint32_t Pieces::unite(std::uint32_t a, std::uint32_t b) {
+  if (a == b) return a;
   // The larger keeps its name; of equals the one that comes first.
   if (parents_[a] > parents_[b] || (parents_[a] == parents_[b] && b < a)) std::swap(a, b);
   parents_[a] += parents_[b];
   parents_[b] = static_cast<std::int32_t>(a);
+  return a;
 }
 
 Pieces::Pieces(const ClearSpace& space, std::uint32_t step, const Deadline& deadline) {
@@ -52,8 +52,9 @@ Pieces::Pieces(const ClearSpace& space, std::uint32_t step, const Deadline& dead
         continue;
       }
       parents_[cell] = -1;
-      if (++run > step) unite(cell - step, cell);
-      if (++below[x] > step) unite(cell - step * width, cell);
+      std::uint32_t name = cell;
+      if (++run > step) name = unite(find(cell - step), name);
+      if (++below[x] > step) unite(find(cell - step * width), name);
     }
   }
 }

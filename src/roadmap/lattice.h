@@ -29,7 +29,8 @@ class Pieces {
 
  private:
   std::uint32_t find(std::uint32_t cell);
-  void unite(std::uint32_t a, std::uint32_t b);
+  /// The name of both pieces together. @pre a and b name them
+  std::uint32_t unite(std::uint32_t a, std::uint32_t b);
 
   std::vector<std::int32_t> parents_;  // of a name: minus the size; kBlocked
 };
