@@ -9,10 +9,8 @@
 
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/random.h"
-#include "split_mapf/io/map_server.h"
 #include "split_mapf/roadmap/proof.h"
 #include "split_mapf/roadmap/reach.h"
-#include "support/benchmarks.h"
 #include "support/course_checker.h"
 #include "support/drawn_rooms.h"
 
@@ -219,36 +217,6 @@ TEST(Roadmap, HearsAStopWithin200MillisecondsInEveryPass) {
     EXPECT_LT(std::chrono::duration<double>(done - stopped).count(), 0.2) << wait_ms << " ms";
   }
   EXPECT_EQ(buildRoadmap(drawn.raster, discsOf(0.25), Deadline(0)), std::nullopt);
-}
-
-TEST(Roadmap, ServesTenMapsOfRobots) {
-  struct Aim {
-    double radius_m;
-    double mean_share;
-    std::uint32_t most_lost;
-  };
-  for (const Aim& aim : {Aim{0.25, 0.99, 0}, Aim{0.35, 0.97, 0}, Aim{0.5, 0.94, 6}}) {
-    double shares = 0;
-    std::uint32_t lost = 0;
-    const std::vector<std::string> names = {
-        "aws_warehouse",  "cave",       "fetch_lab", "house",        "ipa_apartment",
-        "nav2_warehouse", "servicesim", "stata",     "warehouse008", "willow"};
-    for (const std::string& name : names) {
-      const auto file = test::benchmarkFile("map_server/" + name + "/map.yaml");
-      if (!file) GTEST_SKIP() << test::benchmarkMissing("map_server/" + name + "/map.yaml");
-      const OccupancyMap map = readMapServerMap(*file);
-      const ObstacleRaster raster = rasterOf(map.grid->width(), map.grid->height(),
-                                             freeCells(map.occupancy, {}), map.resolution_m);
-      const auto roadmap = buildRoadmap(raster, discsOf(aim.radius_m));
-      ASSERT_TRUE(roadmap.has_value());
-      const auto reach = measureReach(raster, *roadmap);
-      ASSERT_TRUE(reach.has_value());
-      shares += reach->share();
-      lost += reach->rooms_lost;
-    }
-    EXPECT_GE(shares / static_cast<double>(names.size()), aim.mean_share) << aim.radius_m;
-    EXPECT_LE(lost, aim.most_lost) << aim.radius_m;
-  }
 }
 
 }  // namespace
