@@ -30,6 +30,7 @@ ExitCode runRender(const Call& call);
 ExitCode runRoadmap(const Call& call);
 ExitCode runBench(const Call& call);
 ExitCode runSimulate(const Call& call);
+ExitCode runRoll(const Call& call);
 ExitCode runSolvers(const Call& call);
 
 }  // namespace split_mapf::tool

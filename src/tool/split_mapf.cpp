@@ -22,6 +22,7 @@ const std::vector<Command>& commands() {
       {"generate", "generate a map and a scenario", runGenerate},
       {"render", "draw a plan as a PNG picture", runRender},
       {"simulate", "execute a plan by robots that are late", runSimulate},
+      {"roll", "run a fleet whose goals come one by one", runRoll},
       {"roadmap", "build the planning graph of robots that have size", runRoadmap},
       {"bench", "plan many combinations and write a CSV table", runBench},
       {"solvers", "list solvers and their options", runSolvers},

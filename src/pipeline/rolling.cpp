@@ -1,0 +1,242 @@
+#include "split_mapf/pipeline/rolling.h"
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "pipeline/rolling/escorts.h"
+#include "pipeline/rolling/improver.h"
+#include "pipeline/rolling/progress.h"
+#include "pipeline/rolling/rolling_question.h"
+#include "pipeline/rolling/slopes.h"
+#include "pipeline/rolling/window_base.h"
+#include "split_mapf/core/error.h"
+#include "split_mapf/core/fleet_check.h"
+
+namespace split_mapf {
+namespace {
+
+using namespace rolling;
+
+// Windows without a gain after which a robot is led on. An escort closes a region to all others, so
+// where more than two cells in five are taken, and everybody stands for long, it comes later.
+constexpr std::uint32_t kPatience = 3;
+constexpr std::uint32_t kCrowdedPatience = 10;
+// Who gains nothing counts for more: once more every so many steps.
+constexpr std::uint32_t kWeightEvery = 5;
+constexpr std::uint32_t kMostWeight = 50;
+
+static_assert(RollingOptions::kMostWindow == kMostSteps);
+
+RollingOptions checked(const RollingOptions& options) {
+  if (options.window < 1 || options.window > RollingOptions::kMostWindow) {
+    throw OptionError("a window of " + std::to_string(options.window) +
+                      " steps was asked for; 1 to " + std::to_string(RollingOptions::kMostWindow) +
+                      " are expected");
+  }
+  if (options.threads < 1) throw OptionError("0 threads were given; at least 1 is expected");
+  return options;
+}
+
+}  // namespace
+
+class Rolling::Run {
+ public:
+  Run(std::shared_ptr<const Grid> grid, const RollingOptions& options)
+      : options_(checked(options)),
+        grid_(std::move(grid)),
+        graph_(*grid_),
+        closed_(graph_.size(), false),
+        slopes_(graph_, options.cache_bytes),
+        base_(graph_, closed_, options.seed),
+        improver_(graph_, closed_, options.window, options.threads, options.seed),
+        barred_(closed_),
+        checker_(grid_) {
+    window_.steps = options.window;
+  }
+
+  void begin(const RollingQuestion& question, std::uint32_t steps) {
+    requireSound(question, *grid_, graph_, options_.window);
+    now_ += steps;
+    expansions_ = 0;
+    closeVertices(question);
+    escorts_.goOn(question, steps, closed_);
+    const bool crowded = 5 * question.robots.size() > std::size_t{2} * graph_.size();
+    patience_ = crowded ? kCrowdedPatience : kPatience;
+    readItineraries(question);
+    addEscorts(question);
+    bindRobots(question);
+    orderRobots(question);
+    window_.tracks.resize(question.robots.size());
+    base_.make(starts_, order_, window_);
+    improver_.begin(window_);
+  }
+
+  std::uint64_t improve(std::uint64_t expansions, const Deadline& deadline) {
+    const std::uint64_t done = improver_.improve(expansions, deadline);
+    expansions_ += done;
+    return done;
+  }
+
+  RollingAnswer answer() {
+    RollingAnswer answer;
+    answer.cut_off = cut_off_;
+    answer.expansions = expansions_;
+    answer.paths.reserve(window_.robots());
+    for (std::uint32_t robot = 0; robot < window_.robots(); ++robot) {
+      const Track& track = window_.tracks[robot];
+      answer.paths.emplace_back(track.at.begin(), track.at.begin() + window_.steps + 1);
+      std::uint32_t reached = 0;
+      answer.cost += window_.itineraries[robot].costOf(track, window_.steps, reached);
+      answer.reached.push_back(reached);
+    }
+    answer.cost /= kStepCost;
+    answer.escorts = escorts_.size();
+    const std::optional<std::string> wrong = checker_.violation(answer.paths);
+    if (wrong) throw std::logic_error("a window is not valid: " + *wrong);
+    return answer;
+  }
+
+ private:
+  void closeVertices(const RollingQuestion& question) {
+    closed_.assign(graph_.size(), false);
+    for (const Vertex v : question.blocked) closed_[v] = true;
+    for (const RollingRobot& robot : question.robots) {
+      if (!robot.may_move) closed_[robot.prefix.back()] = true;
+    }
+    slopes_.close(closed_);
+  }
+
+  void readItineraries(const RollingQuestion& question) {
+    held_before_.swap(held_);  // so that what is asked for again is still there
+    held_.clear();
+    cut_off_.clear();
+    stuck_.clear();
+    window_.itineraries.assign(question.robots.size(), Itinerary());
+    for (std::uint32_t robot = 0; robot < question.robots.size(); ++robot) {
+      const RollingRobot& asked = question.robots[robot];
+      Itinerary& itinerary = window_.itineraries[robot];
+      const std::size_t held = held_.size();
+      addGoals(asked, robot, itinerary);
+      if (itinerary.count > 0 && asked.may_move) {
+        noteProgress(asked, robot, *held_[held], itinerary);
+      } else {
+        progress_.forget(asked.id);
+      }
+    }
+    held_before_.clear();
+  }
+
+  void noteProgress(const RollingRobot& asked, std::uint32_t robot, const Slope& slope,
+                    Itinerary& itinerary) {
+    progress_.note(graph_, asked.id, asked.prefix.front(), itinerary.goals[0], slope, now_);
+    const std::uint32_t stuck = progress_.stuckFor(asked.id, now_);
+    itinerary.weight = 1 + std::min(kMostWeight, stuck / kWeightEvery);
+    if (stuck < patience_ * options_.window) return;
+    stuck_.push_back({robot, stuck, &slope, progress_.best(asked.id)});
+  }
+
+  /// As many as can be met within the window.
+  void addGoals(const RollingRobot& asked, std::uint32_t robot, Itinerary& itinerary) {
+    Vertex from = asked.prefix.front();
+    std::uint32_t left = window_.steps;
+    for (const Vertex goal : asked.goals) {
+      if (itinerary.count == kMostGoals) return;
+      std::shared_ptr<const Slope> slope = slopes_.find(goal);
+      if (!slope->reachable(from)) {
+        if (itinerary.count == 0) cut_off_.push_back(robot);
+        return;
+      }
+      itinerary.goals[itinerary.count] = goal;
+      itinerary.slopes[itinerary.count++] = slope->data();
+      left -= slope->distance(graph_, from, left);
+      held_.push_back(std::move(slope));
+      if (left == 0) return;
+      from = goal;
+    }
+  }
+
+  void addEscorts(const RollingQuestion& question) {
+    escorts_.add(*grid_, graph_, question, closed_, stuck_, now_, options_.window);
+    std::vector<bool> barred = closed_;
+    escorts_.bar(barred);
+    if (barred == barred_) return;
+    barred_.swap(barred);
+    base_.close(barred_);
+    improver_.close(barred_);
+  }
+
+  /// To what the question says, or to an escort.
+  void bindRobots(const RollingQuestion& question) {
+    std::unordered_map<std::uint32_t, const Path*> escorted;
+    for (const Escort& escort : escorts_.all()) {
+      for (std::size_t i = 0; i < escort.members.size(); ++i) {
+        escorted.emplace(escort.members[i], &escort.paths[i]);
+      }
+    }
+    starts_.clear();
+    for (std::uint32_t robot = 0; robot < question.robots.size(); ++robot) {
+      const RollingRobot& asked = question.robots[robot];
+      const auto escort = escorted.empty() ? escorted.end() : escorted.find(asked.id);
+      const Path* prefix = escort == escorted.end() ? &asked.prefix : escort->second;
+      starts_.push_back({prefix, &asked.known});
+      const auto free = static_cast<std::uint32_t>(prefix->size()) - 1;
+      window_.itineraries[robot].free_from =
+          asked.may_move ? std::min(free, window_.steps) : window_.steps;
+    }
+  }
+
+  void orderRobots(const RollingQuestion& question) {
+    order_.resize(question.robots.size());
+    std::iota(order_.begin(), order_.end(), 0U);
+    std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+      const RollingRobot& one = question.robots[a];
+      const RollingRobot& two = question.robots[b];
+      if (one.priority != two.priority) return one.priority > two.priority;
+      if (one.age != two.age) return one.age > two.age;
+      return a < b;
+    });
+  }
+
+  RollingOptions options_;
+  std::shared_ptr<const Grid> grid_;
+  MoveGraph graph_;
+  std::vector<bool> closed_;  // by vertex
+  SlopeCache slopes_;
+  WindowBase base_;
+  Improver improver_;
+  FleetWindow window_;
+  std::vector<std::shared_ptr<const Slope>> held_;  // that the itineraries point to
+  std::vector<std::shared_ptr<const Slope>> held_before_;
+  std::vector<std::uint32_t> order_;  // the most important robot first
+  std::vector<std::uint32_t> cut_off_;
+  Progress progress_;
+  std::vector<StuckRobot> stuck_;
+  Escorts escorts_;
+  std::vector<bool> barred_;  // by vertex: closed, or the region of an escort
+  std::vector<WindowStart> starts_;
+  FleetChecker checker_;
+  std::uint32_t patience_ = kPatience;  // [windows]
+  std::uint64_t now_ = 0;               // [steps]
+  std::uint64_t expansions_ = 0;
+};
+
+Rolling::Rolling(std::shared_ptr<const Grid> grid, const RollingOptions& options)
+    : run_(std::make_unique<Run>(std::move(grid), options)) {}
+Rolling::~Rolling() = default;
+
+void Rolling::begin(const RollingQuestion& question, std::uint32_t steps) {
+  run_->begin(question, steps);
+}
+
+std::uint64_t Rolling::improve(std::uint64_t expansions, const Deadline& deadline) {
+  return run_->improve(expansions, deadline);
+}
+
+RollingAnswer Rolling::answer() { return run_->answer(); }
+
+}  // namespace split_mapf

@@ -1,0 +1,95 @@
+#include "pipeline/rolling/escorts.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace split_mapf::rolling {
+namespace {
+
+constexpr std::size_t kMostSearches = 2;  // for new escorts at a time
+// Others stay out of regions: a new one only while these are less than one cell in so many.
+constexpr std::size_t kLeastShare = 32;
+
+using IndexById = std::unordered_map<std::uint32_t, const RollingRobot*>;
+
+/// Whether the member does what the path says, as far as it is bound to anything.
+bool keepsTo(const RollingRobot& robot, const Path& path) {
+  for (std::uint32_t t = 0; t < robot.prefix.size(); ++t) {
+    if (robot.prefix[t] != positionAt(path, t)) return false;
+  }
+  return robot.may_move;
+}
+
+bool goesOn(const Escort& escort, const IndexById& robots, const std::vector<bool>& closed) {
+  for (std::size_t i = 0; i < escort.members.size(); ++i) {
+    const auto robot = robots.find(escort.members[i]);
+    if (robot == robots.end() || !keepsTo(*robot->second, escort.paths[i])) return false;
+    if (robot->first == escort.leader && robot->second->prefix.front() == escort.target) {
+      return false;
+    }
+  }
+  return std::none_of(escort.region.begin(), escort.region.end(),
+                      [&](Vertex v) { return closed[v]; });
+}
+
+}  // namespace
+
+void Escorts::goOn(const RollingQuestion& fleet, std::uint32_t steps,
+                   const std::vector<bool>& closed) {
+  if (escorts_.empty()) return;
+  IndexById robots;
+  for (const RollingRobot& robot : fleet.robots) robots.emplace(robot.id, &robot);
+  for (Escort& escort : escorts_) {
+    for (Path& path : escort.paths) {
+      const auto over = std::min<std::size_t>(steps, path.size() - 1);
+      path.erase(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(over));
+    }
+  }
+  const auto over = std::remove_if(escorts_.begin(), escorts_.end(), [&](const Escort& escort) {
+    return !goesOn(escort, robots, closed);
+  });
+  escorts_.erase(over, escorts_.end());
+}
+
+void Escorts::add(const Grid& grid, const MoveGraph& graph, const RollingQuestion& fleet,
+                  const std::vector<bool>& closed, std::vector<StuckRobot> stuck, std::uint64_t now,
+                  std::uint32_t patience) {
+  std::stable_sort(stuck.begin(), stuck.end(),
+                   [](const StuckRobot& a, const StuckRobot& b) { return a.steps > b.steps; });
+  std::size_t searches = 0;
+  std::size_t led = 0;  // cells in regions
+  for (const Escort& escort : escorts_) led += escort.region.size();
+  for (const StuckRobot& robot : stuck) {
+    if (searches == kMostSearches || led * kLeastShare > graph.size()) return;
+    const std::uint32_t id = fleet.robots[robot.index].id;
+    std::uint64_t& next_try = next_try_[id];
+    std::vector<bool> barred = closed;
+    bar(barred);
+    // Who is in a region already, or has just been looked at, waits.
+    if (now < next_try || barred[fleet.robots[robot.index].prefix.back()]) continue;
+    EscortQuestion question;
+    question.grid = &grid;
+    question.graph = &graph;
+    question.fleet = &fleet;
+    question.closed = &barred;
+    question.leader = robot.index;
+    question.slope = robot.slope;
+    question.best = robot.best;
+    ++searches;
+    std::optional<Escort> escort = findEscort(question);
+    if (escort) {
+      led += escort->region.size();
+      escorts_.push_back(std::move(*escort));
+    } else {
+      next_try = now + patience;
+    }
+  }
+}
+
+void Escorts::bar(std::vector<bool>& barred) const {
+  for (const Escort& escort : escorts_) {
+    for (const Vertex v : escort.region) barred[v] = true;
+  }
+}
+
+}  // namespace split_mapf::rolling

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "pipeline/rolling/escort.h"
+#include "pipeline/rolling/progress.h"
+
+namespace split_mapf::rolling {
+
+/// A robot that wants an escort.
+struct StuckRobot {
+  std::uint32_t index = 0;  ///< in the fleet
+  std::uint32_t steps = 0;  ///< for which it has gained nothing
+  const Slope* slope = nullptr;
+  std::uint32_t best = 0;
+};
+
+/// The escorts under way. Their regions do not touch each other.
+class Escorts {
+ public:
+  /// So many steps are over: escorts go on as far as the fleet has kept to them, and end where the
+  /// leader has come to its target, a member is elsewhere, or a wall stands in the region.
+  void goOn(const RollingQuestion& fleet, std::uint32_t steps, const std::vector<bool>& closed);
+  /// Finds escorts for those that are stuck, the longest first. A robot for which there is none is
+  /// not looked at again for `patience` steps. Cost: a few searches at most.
+  void add(const Grid& grid, const MoveGraph& graph, const RollingQuestion& fleet,
+           const std::vector<bool>& closed, std::vector<StuckRobot> stuck, std::uint64_t now,
+           std::uint32_t patience);
+
+  std::uint32_t size() const { return static_cast<std::uint32_t>(escorts_.size()); }
+  const std::vector<Escort>& all() const { return escorts_; }
+  /// Marks the regions.
+  void bar(std::vector<bool>& barred) const;
+
+ private:
+  std::vector<Escort> escorts_;
+  std::unordered_map<std::uint32_t, std::uint64_t> next_try_;  // by id
+};
+
+}  // namespace split_mapf::rolling

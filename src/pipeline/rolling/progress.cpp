@@ -1,0 +1,32 @@
+#include "pipeline/rolling/progress.h"
+
+namespace split_mapf::rolling {
+
+void Progress::note(const MoveGraph& graph, std::uint32_t id, Vertex at, Vertex goal,
+                    const Slope& slope, std::uint64_t now) {
+  Robot& robot = robots_[id];
+  const bool is_new = robot.goal != goal;
+  const Slot slot = is_new ? MoveGraph::kNoSlot : graph.slotOf(robot.at, at);
+  if (slot < kSlots) {  // one move further than last time: its slope says what that was worth
+    const std::uint32_t bits = slope[robot.at];
+    if ((bits >> slot & 1U) != 0) {
+      --robot.left;
+    } else if ((bits >> slot & 16U) == 0) {
+      ++robot.left;
+    }
+  } else if (slot != kWait) {
+    robot.left = slope.distance(graph, at, 0xffffffffU);
+  }
+  robot.at = at;
+  robot.goal = goal;
+  if (!is_new && robot.left >= robot.best) return;
+  robot.best = robot.left;
+  robot.since = now;
+}
+
+std::uint32_t Progress::stuckFor(std::uint32_t id, std::uint64_t now) const {
+  const auto robot = robots_.find(id);
+  return robot == robots_.end() ? 0 : static_cast<std::uint32_t>(now - robot->second.since);
+}
+
+}  // namespace split_mapf::rolling

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+
+#include "pipeline/rolling/slopes.h"
+
+namespace split_mapf::rolling {
+
+/// Remembers how near each robot has come to its goal, and since when it has come no nearer.
+class Progress {
+ public:
+  /// Tells where a robot is. @param slope  to the goal. @pre the goal can be reached from `at`.
+  void note(const MoveGraph& graph, std::uint32_t id, Vertex at, Vertex goal, const Slope& slope,
+            std::uint64_t now);
+  /// Of a robot without a goal that it could reach.
+  void forget(std::uint32_t id) { robots_.erase(id); }
+  /// Steps for which the robot has gained nothing.
+  std::uint32_t stuckFor(std::uint32_t id, std::uint64_t now) const;
+  /// The least distance to its goal so far [steps]. @pre the robot was noted.
+  std::uint32_t best(std::uint32_t id) const { return robots_.at(id).best; }
+
+ private:
+  struct Robot {
+    Vertex at = kNoVertex;
+    Vertex goal = kNoVertex;
+    std::uint32_t left = 0;  // steps to the goal from `at`
+    std::uint32_t best = 0;
+    std::uint64_t since = 0;
+  };
+  std::unordered_map<std::uint32_t, Robot> robots_;
+};
+
+}  // namespace split_mapf::rolling

@@ -1,0 +1,133 @@
+#include "pipeline/rolling/step_maker.h"
+
+#include <cstddef>
+
+namespace split_mapf::rolling {
+
+StepMaker::StepMaker(const MoveGraph& graph, std::uint64_t seed)
+    : graph_(graph),
+      engine_(seed),
+      robot_at_(graph.size(), kNoRobot),
+      robot_next_(graph.size(), kNoRobot) {}
+
+bool StepMaker::make(const std::vector<StepWish>& wishes, const std::vector<std::uint32_t>& order,
+                     const WindowTable& table, std::vector<Slot>& moves) {
+  moves_.assign(wishes.size(), MoveGraph::kNoSlot);
+  for (std::uint32_t i = 0; i < wishes.size(); ++i) robot_at_[wishes[i].at] = i;
+  bool done = bind(wishes);
+  // Who stands where somebody is bound to go has the least choice.
+  for (std::size_t i = 0; done && i < wishes.size(); ++i) {
+    const bool open = moves_[i] == MoveGraph::kNoSlot;
+    if (open && robot_next_[wishes[i].at] != kNoRobot) {
+      done = move(static_cast<std::uint32_t>(i), wishes, table);
+    }
+  }
+  for (std::size_t k = 0; done && k < order.size(); ++k) {
+    if (moves_[order[k]] == MoveGraph::kNoSlot) done = move(order[k], wishes, table);
+  }
+  for (std::size_t i = 0; i < wishes.size(); ++i) {
+    robot_at_[wishes[i].at] = kNoRobot;
+    robot_next_[wishes[i].at] = kNoRobot;
+    if (moves_[i] < kSlots) robot_next_[graph_[wishes[i].at].next[moves_[i]]] = kNoRobot;
+  }
+  moves = moves_;
+  return done;
+}
+
+bool StepMaker::bind(const std::vector<StepWish>& wishes) {
+  bool fits = true;
+  for (std::uint32_t i = 0; i < wishes.size(); ++i) {
+    if (!wishes[i].bound) continue;
+    moves_[i] = wishes[i].wanted;
+    const Vertex to = endOf(wishes[i], wishes[i].wanted);
+    const std::uint32_t there = robot_at_[to];
+    fits = fits && robot_next_[to] == kNoRobot;
+    if (there != kNoRobot && there != i && moves_[there] != MoveGraph::kNoSlot) {
+      fits = fits && endOf(wishes[there], moves_[there]) != wishes[i].at;
+    }
+    robot_next_[to] = i;
+  }
+  return fits;
+}
+
+bool StepMaker::move(std::uint32_t robot, const std::vector<StepWish>& wishes,
+                     const WindowTable& table) {
+  frames_.clear();
+  open(robot, wishes, table);
+  for (;;) {
+    const Step step = advance(wishes);
+    if (step == Step::kAsks) {
+      const Frame& frame = frames_.back();
+      open(robot_at_[endOf(wishes[frame.robot], moves_[frame.robot])], wishes, table);
+      continue;
+    }
+    if (step == Step::kSettled) return true;
+    if (step == Step::kLost) return false;
+    frames_.pop_back();  // then whoever asked it to move tries something else
+    if (frames_.empty()) return false;
+  }
+}
+
+void StepMaker::open(std::uint32_t robot, const std::vector<StepWish>& wishes,
+                     const WindowTable& table) {
+  const StepWish& wish = wishes[robot];
+  std::uint64_t random = engine_();
+  Frame frame{};
+  frame.robot = robot;
+  std::array<std::uint32_t, kSlots + 1> keys{};
+  const std::uint32_t open = table[wish.at].open | 1U << kWait;
+  for (Slot slot = 0; slot <= kWait; ++slot) {
+    if ((open >> slot & 1U) == 0) continue;
+    std::uint32_t key = wish.idle == (slot == kWait) ? 1 : 2;  // idle: stay; others: do not
+    if (!wish.idle) {
+      if ((wish.nearer >> slot & 1U) != 0 && slot != kWait)
+        key = 1;
+      else if (slot == kWait || (wish.nearer >> slot & 16U) != 0)
+        key = 2;
+      else
+        key = 3;
+    }
+    if (slot == wish.wanted) key = 0;
+    // Of equally good places rather one where nobody stands.
+    const bool taken = slot != kWait && robot_at_[endOf(wish, slot)] != kNoRobot;
+    key = (key << 1U | (taken ? 1U : 0U)) << 8U | (random & 0xffU);
+    random >>= 8U;
+    std::uint32_t place = frame.count++;
+    for (; place > 0 && keys[place - 1] > key; --place) {
+      keys[place] = keys[place - 1];
+      frame.choices[place] = frame.choices[place - 1];
+    }
+    keys[place] = key;
+    frame.choices[place] = slot;
+  }
+  frames_.push_back(frame);
+}
+
+StepMaker::Step StepMaker::advance(const std::vector<StepWish>& wishes) {
+  Frame& frame = frames_.back();
+  const StepWish& wish = wishes[frame.robot];
+  while (frame.tried < frame.count) {
+    const Slot slot = frame.choices[frame.tried++];
+    const Vertex to = endOf(wish, slot);
+    if (robot_next_[to] != kNoRobot) continue;
+    const std::uint32_t there = robot_at_[to];
+    const bool settled = there == kNoRobot || moves_[there] != MoveGraph::kNoSlot;
+    if (there != kNoRobot && there != frame.robot && settled &&
+        endOf(wishes[there], moves_[there]) == wish.at) {
+      continue;
+    }
+    robot_next_[to] = frame.robot;
+    moves_[frame.robot] = slot;
+    if (slot == kWait || settled) return Step::kSettled;
+    return Step::kAsks;
+  }
+  // It stays, if it may: who had asked for its place looks elsewhere.
+  const std::uint32_t comes = robot_next_[wish.at];
+  const bool asked = frames_.size() > 1 && frames_[frames_.size() - 2].robot == comes;
+  moves_[frame.robot] = kWait;
+  if (comes != kNoRobot && !asked) return Step::kLost;
+  robot_next_[wish.at] = frame.robot;
+  return Step::kStuck;
+}
+
+}  // namespace split_mapf::rolling

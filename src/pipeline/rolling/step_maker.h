@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "pipeline/rolling/move_graph.h"
+#include "pipeline/rolling/window_table.h"
+#include "split_mapf/core/random.h"
+
+namespace split_mapf::rolling {
+
+/// One robot's part in a step.
+struct StepWish {
+  Vertex at = kNoVertex;
+  bool bound = false;                ///< takes the slot `wanted`, whatever others want
+  bool idle = false;                 ///< would rather stay
+  Slot wanted = MoveGraph::kNoSlot;  ///< tried first, kNoSlot: what `nearer` says
+  std::uint8_t nearer = 0;           ///< the slope's byte at `at`
+};
+
+/// Makes one step of all robots: priority inheritance with backtracking. Robots choose in order;
+/// who wants the place of another lends it its priority, so that it moves away first. Always ends
+/// with a step for all where nobody is bound.
+/// Source: Okumura et al., Artificial Intelligence 310 (2022). Without recursion. Not thread-safe.
+class StepMaker {
+ public:
+  StepMaker(const MoveGraph& graph, std::uint64_t seed);
+
+  /// @param order  all robots, the most important first
+  /// @param moves  gets the slot of each robot
+  /// @return false when what is bound leaves somebody no place; `moves` is of no use then.
+  /// Cost: O(robots).
+  bool make(const std::vector<StepWish>& wishes, const std::vector<std::uint32_t>& order,
+            const WindowTable& table, std::vector<Slot>& moves);
+
+ private:
+  static constexpr std::uint32_t kNoRobot = 0xffffffffU;
+  struct Frame {
+    std::uint32_t robot;
+    std::uint8_t tried;
+    std::uint8_t count;
+    std::array<Slot, kSlots + 1> choices;
+  };
+  enum class Step { kSettled, kStuck, kAsks, kLost };
+
+  bool bind(const std::vector<StepWish>& wishes);
+  bool move(std::uint32_t robot, const std::vector<StepWish>& wishes, const WindowTable& table);
+  void open(std::uint32_t robot, const std::vector<StepWish>& wishes, const WindowTable& table);
+  Step advance(const std::vector<StepWish>& wishes);
+  Vertex endOf(const StepWish& wish, Slot slot) const {
+    return slot == kWait ? wish.at : graph_[wish.at].next[slot];
+  }
+
+  const MoveGraph& graph_;
+  RandomEngine engine_;
+  std::vector<std::uint32_t> robot_at_;    // by vertex, now
+  std::vector<std::uint32_t> robot_next_;  // by vertex, behind the step
+  std::vector<Slot> moves_;                // kNoSlot: not settled
+  std::vector<Frame> frames_;
+};
+
+}  // namespace split_mapf::rolling

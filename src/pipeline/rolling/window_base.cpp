@@ -1,0 +1,113 @@
+#include "pipeline/rolling/window_base.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace split_mapf::rolling {
+
+void WindowBase::make(const std::vector<WindowStart>& starts,
+                      const std::vector<std::uint32_t>& order, FleetWindow& window) {
+  stop_until_ = 0;
+  if (makeSteps(starts, order, window)) return;
+  // What is bound leaves somebody no place: then everybody stops, as everybody may.
+  for (const WindowStart& start : starts) {
+    const auto last = static_cast<std::uint32_t>(start.prefix->size()) - 1;
+    stop_until_ = std::max(stop_until_, last);
+  }
+  if (!makeSteps(starts, order, window)) {
+    throw std::logic_error("no step of the fleet was found where everybody may stop");
+  }
+}
+
+bool WindowBase::makeSteps(const std::vector<WindowStart>& starts,
+                           const std::vector<std::uint32_t>& order, FleetWindow& window) {
+  const std::uint32_t robots = window.robots();
+  table_.clear();
+  wishes_.resize(robots);
+  reached_.assign(robots, 0);
+  on_known_.assign(robots, true);
+  for (std::uint32_t robot = 0; robot < robots; ++robot) {
+    const Vertex at = starts[robot].prefix->front();
+    window.tracks[robot].at[0] = at;
+    window.tracks[robot].slot.fill(kWait);
+    reached_[robot] = window.itineraries[robot].reachedAt(at, 0);
+    const Path& known = *starts[robot].known;
+    on_known_[robot] = !known.empty() && known.front() == at;
+  }
+  for (std::uint32_t t = 0; t < window.steps; ++t) {
+    for (std::uint32_t robot = 0; robot < robots; ++robot) wish(starts, robot, t, window);
+    if (keepKnown(t, window)) continue;
+    if (!maker_.make(wishes_, order, table_, moves_)) return false;
+    for (std::uint32_t robot = 0; robot < robots; ++robot) {
+      on_known_[robot] = on_known_[robot] && moves_[robot] == wishes_[robot].wanted;
+      advance(robot, t, moves_[robot], window);
+    }
+  }
+  return true;
+}
+
+void WindowBase::wish(const std::vector<WindowStart>& starts, std::uint32_t robot, std::uint32_t t,
+                      const FleetWindow& window) {
+  const Path& prefix = *starts[robot].prefix;
+  const Path& known = *starts[robot].known;
+  const Itinerary& itinerary = window.itineraries[robot];
+  StepWish& wish = wishes_[robot];
+  wish.at = window.tracks[robot].at[t];
+  wish.idle = itinerary.isIdle(reached_[robot]);
+  wish.nearer = wish.idle ? 0 : itinerary.slopes[reached_[robot]][wish.at];
+  wish.wanted = MoveGraph::kNoSlot;
+  const auto free = static_cast<std::uint32_t>(prefix.size()) - 1;
+  wish.bound = t < free || t < stop_until_ || itinerary.free_from >= window.steps;
+  if (wish.bound) {
+    wish.wanted = t < free ? graph_.slotOf(wish.at, prefix[t + 1]) : kWait;
+    on_known_[robot] = on_known_[robot] && t + 1 < known.size() &&
+                       (wish.wanted == kWait ? wish.at : prefix[t + 1]) == known[t + 1];
+    return;
+  }
+  if (!on_known_[robot] || t + 1 >= known.size()) {
+    on_known_[robot] = false;
+    return;
+  }
+  const Slot slot = graph_.slotOf(wish.at, known[t + 1]);
+  const bool open = slot == kWait || (slot < kSlots && (table_[wish.at].open >> slot & 1U) != 0);
+  if (open) wish.wanted = slot;
+  on_known_[robot] = open;
+}
+
+bool WindowBase::keepKnown(std::uint32_t t, FleetWindow& window) {
+  for (const StepWish& wish : wishes_) {
+    if (wish.wanted == MoveGraph::kNoSlot) return false;
+  }
+  for (std::uint32_t robot = 0; robot < window.robots(); ++robot) {
+    Track& track = window.tracks[robot];
+    const Slot slot = wishes_[robot].wanted;
+    const Vertex to = slot == kWait ? track.at[t] : graph_[track.at[t]].next[slot];
+    const bool free =
+        (table_[to].taken >> (t + 1) & 1U) == 0 &&
+        (slot == kWait || (table_[to].leaving[graph_[track.at[t]].back[slot]] >> t & 1U) == 0);
+    track.slot[t] = slot;
+    track.at[t + 1] = to;
+    if (free) {
+      table_.flip(track, t, t + 1);
+      continue;
+    }
+    for (std::uint32_t before = 0; before < robot; ++before) {
+      table_.flip(window.tracks[before], t, t + 1);
+    }
+    return false;
+  }
+  for (std::uint32_t robot = 0; robot < window.robots(); ++robot) {
+    reached_[robot] =
+        window.itineraries[robot].reachedAt(window.tracks[robot].at[t + 1], reached_[robot]);
+  }
+  return true;
+}
+
+void WindowBase::advance(std::uint32_t robot, std::uint32_t t, Slot slot, FleetWindow& window) {
+  Track& track = window.tracks[robot];
+  track.slot[t] = slot;
+  track.at[t + 1] = slot == kWait ? track.at[t] : graph_[track.at[t]].next[slot];
+  reached_[robot] = window.itineraries[robot].reachedAt(track.at[t + 1], reached_[robot]);
+}
+
+}  // namespace split_mapf::rolling

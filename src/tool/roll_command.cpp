@@ -1,0 +1,211 @@
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "split_mapf/core/error.h"
+#include "split_mapf/core/wording.h"
+#include "split_mapf/io/map_file.h"
+#include "split_mapf/io/movingai.h"
+#include "split_mapf/io/task_file.h"
+#include "split_mapf/pipeline/roll.h"
+#include "tool/command_line.h"
+#include "tool/commands.h"
+#include "tool/files.h"
+#include "tool/roll_output.h"
+#include "tool/stop_signals.h"
+
+namespace split_mapf::tool {
+namespace {
+
+constexpr std::uint64_t kMost64 = std::numeric_limits<std::uint64_t>::max();
+
+void declareOptions(CommandLine& line) {
+  const RollOptions defaults;
+  line.require("map", "FILE", "MovingAI .map, or map_server .yaml");
+  line.offer("tasks", "FILE",
+             "random (who reaches a goal gets another one), .yaml (robots: [{start: [x, y], goals: "
+             "[[x, y], ...]}, ...]), or .tasks of the League of Robot Runners, dealt out in turn "
+             "(random)");
+  line.offer("starts", "FILE", "MovingAI .scen, or .agents of the League (random)");
+  line.offer("agents", "N", "number of robots (all of the file)");
+  line.offer("steps", "N", "length of the run (" + std::to_string(defaults.steps) + ")");
+  line.offer("warmup", "N",
+             "first steps that are not counted (" + std::to_string(defaults.warmup) + ")");
+  line.offer("window", "STEPS",
+             "planned ahead, 1 to " + std::to_string(RollingOptions::kMostWindow) + " (" +
+                 std::to_string(defaults.rolling.window) + ")");
+  line.offer("step-expansions", "N",
+             "effort a step in expanded states: the same run at any number of threads (" +
+                 std::to_string(defaults.step_expansions) + ")");
+  line.offer("step-time", "SECONDS", "effort a step in CPU time of each thread, instead");
+  line.offer("known-goals", "N",
+             "of each robot that are planned for (" + std::to_string(defaults.known_goals) + ")");
+  line.offer("threads", "N", "worker threads (hardware concurrency)");
+  line.offer("cache", "MiB",
+             "for distances by goal (" + std::to_string(defaults.rolling.cache_bytes >> 20U) + ")");
+  line.offer("seed", "N", "all randomness (0)");
+  line.offer("time-limit", "SECONDS", "wall time, after which the run ends (no limit)");
+  line.offer("export", "FORMAT",
+             "lorr: write the League of Robot Runners' result file instead of our JSON");
+  line.offer("output", "FILE", "write the result; - for standard output");
+  line.offerFlag("quiet", "print nothing but errors");
+}
+
+RollOptions readOptions(const CommandLine& line) {
+  constexpr std::uint64_t kMostSteps = 10000000;
+  RollOptions options;
+  RollingOptions& rolling = options.rolling;
+  rolling.window = static_cast<std::uint32_t>(
+      line.wholeNumber("window", rolling.window, 1, RollingOptions::kMostWindow));
+  rolling.threads = static_cast<std::uint32_t>(
+      line.wholeNumber("threads", std::max(1U, std::thread::hardware_concurrency()), 1, 1024));
+  rolling.seed = line.wholeNumber("seed", 0, 0, kMost64);
+  rolling.cache_bytes =
+      line.wholeNumber("cache", rolling.cache_bytes >> 20U, 0, std::uint64_t{1} << 30U) << 20U;
+  options.steps =
+      static_cast<std::uint32_t>(line.wholeNumber("steps", options.steps, 1, kMostSteps));
+  options.warmup = static_cast<std::uint32_t>(line.wholeNumber(
+      "warmup", std::min(options.warmup, options.steps / 5), 0, options.steps - std::uint64_t{1}));
+  options.known_goals =
+      static_cast<std::uint32_t>(line.wholeNumber("known-goals", options.known_goals, 1, 1000));
+  options.step_expansions =
+      line.wholeNumber("step-expansions", options.step_expansions, 0, kMost64);
+  options.step_sec = line.number("step-time", 0, 0);
+  if (line.has("step-time") && line.has("step-expansions")) {
+    throw OptionError("options --step-time and --step-expansions exclude each other");
+  }
+  if (line.has("step-time") && options.step_sec == 0) options.step_expansions = 0;
+  return options;
+}
+
+std::string readFormat(const CommandLine& line) {
+  std::string format = line.text("export", "");
+  if (!format.empty() && format != "lorr") {
+    throw OptionError("option --export: format " + quote(format) + " is unknown; lorr is expected");
+  }
+  if (!format.empty() && !line.has("output")) {
+    throw OptionError("option --export needs --output FILE: there is nowhere to write to");
+  }
+  return format;
+}
+
+std::vector<Vertex> verticesOf(const Grid& grid, const std::vector<Cell>& cells) {
+  std::vector<Vertex> vertices;
+  for (const Cell cell : cells) vertices.push_back(grid.vertexAt(cell));
+  return vertices;
+}
+
+std::optional<std::uint32_t> readAgents(const CommandLine& line) {
+  if (!line.has("agents")) return std::nullopt;
+  return static_cast<std::uint32_t>(
+      line.wholeNumber("agents", 1, 1, std::numeric_limits<std::uint32_t>::max()));
+}
+
+std::vector<Vertex> readStarts(const CommandLine& line, const Grid& grid, std::uint64_t seed) {
+  const std::optional<std::uint32_t> agents = readAgents(line);
+  if (!line.has("starts")) {
+    if (!agents) throw OptionError("option --agents, or --starts, is needed: how many robots?");
+    return drawStarts(grid, *agents, seed);
+  }
+  const std::string file = line.text("starts");
+  if (std::filesystem::path(file).extension() == ".agents") {
+    return verticesOf(grid, readLeagueAgents(file, grid, agents));
+  }
+  return verticesOf(grid, readMovingAiScenario(file, grid, agents).starts);
+}
+
+/// Robot i gets tasks i, i + n, and so on.
+void dealOut(const std::string& file, const Grid& grid, RollTask& task) {
+  task.goals.resize(task.starts.size());
+  const std::vector<std::vector<Cell>> tasks = readLeagueTasks(file, grid);
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    std::vector<Vertex>& goals = task.goals[i % task.starts.size()];
+    for (const Vertex v : verticesOf(grid, tasks[i])) goals.push_back(v);
+  }
+}
+
+RollTask readTask(const CommandLine& line, const Grid& grid, std::uint64_t seed) {
+  RollTask task;
+  const std::string file = line.text("tasks", "random");
+  const std::string extension = std::filesystem::path(file).extension().string();
+  if (extension == ".yaml" || extension == ".yml") {
+    if (line.has("starts"))
+      throw OptionError("option --starts: " + quote(file) + " has starts of its own");
+    const GoalLists lists = readGoalLists(file, grid, readAgents(line));
+    task.starts = verticesOf(grid, lists.starts);
+    for (const std::vector<Cell>& goals : lists.goals)
+      task.goals.push_back(verticesOf(grid, goals));
+    return task;
+  }
+  task.random = file == "random";
+  if (!task.random && extension != ".tasks") {
+    throw OptionError("option --tasks: " + quote(file) +
+                      " was given; random, a .yaml or a .tasks is expected");
+  }
+  task.starts = readStarts(line, grid, seed);
+  if (!task.random) dealOut(file, grid, task);
+  return task;
+}
+
+void printSummary(const RollReport& report, const RollOptions& options) {
+  std::cout << std::fixed << std::setprecision(3) << counted(report.paths.size(), "robot") << ", "
+            << counted(report.steps, "step") << ": " << report.throughput << " goals a step ("
+            << std::setprecision(1) << 100 * report.free_flow_share << " % of free flow), "
+            << report.goals_reached << " behind the first " << options.warmup << " steps\n"
+            << "service " << report.service_mean << " steps in the mean, " << report.service_median
+            << " median, " << report.service_p99 << " 99 %, " << report.service_max
+            << " at most; the longest wait for a goal " << report.longest_wait << "; standing "
+            << 100 * report.waiting << " % of the time\n"
+            << std::setprecision(2) << report.step_cpu_ms_mean << " ms of CPU a step, "
+            << report.step_cpu_ms_max << " at most; a valid step after " << report.valid_ms_max
+            << " at most; the first step " << report.first_step_ms << "\n";
+}
+
+}  // namespace
+
+ExitCode runRoll(const Call& call) {
+  CommandLine line(
+      "roll",
+      "Lets a fleet run whose goals come one by one, and tells how many are reached.\n"
+      "Every step is checked by code that shares nothing with the planner. Exit code:\n"
+      "0 all steps were done, 3 time limit, 4 stopped by a signal.");
+  declareOptions(line);
+  if (!line.parse(call.arguments)) return ExitCode::kOk;
+  const RollOptions options = readOptions(line);
+  const std::string format = readFormat(line);
+  const std::string file = line.text("output", "");
+  if (!file.empty() && file != "-") requireWritable(file);
+  const double limit_sec = line.number("time-limit", std::numeric_limits<double>::infinity(), 0);
+  const Deadline deadline(limit_sec, catchStopSignals());
+  const auto grid = readMap(line.text("map"));
+  const RollTask task = readTask(line, *grid, options.rolling.seed);
+  const RollReport report = roll(grid, task, options, deadline);
+  if (!file.empty()) {
+    std::ostringstream text;
+    if (format == "lorr") {
+      writeLeagueRollJson(text, *grid, report);
+    } else {
+      writeRollJson(text, *grid, options, report);
+    }
+    if (file == "-") {
+      std::cout << text.str();
+    } else {
+      writeTextFile(file, text.str());
+    }
+  }
+  if (!line.has("quiet") && file != "-") printSummary(report, options);
+  if (report.steps == options.steps) return ExitCode::kOk;
+  std::cerr << "split_mapf: " << report.steps << " of " << options.steps << " steps were done\n";
+  return deadline.stopRequested() ? ExitCode::kCancelled : ExitCode::kTimeout;
+}
+
+}  // namespace split_mapf::tool

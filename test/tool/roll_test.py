@@ -1,0 +1,118 @@
+"""Fleets whose goals come one by one: options, results, refusals."""
+
+import unittest
+
+from command import CommandTest
+
+KEYS = ["steps", "warmup", "goals_reached", "throughput", "free_flow_share", "service_steps",
+        "step_cpu_ms", "first_step_ms", "waiting", "paths", "goals"]
+
+
+class RollTest(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.generate("p", "--width", 16, "--height", 16, "--agents", 40)
+
+    def roll(self, *options, code=0):
+        self.expect(code, "roll", "--map", "p.map", "--output", "r.json", *options)
+        return self.read_json("r.json")
+
+    def require_sound(self, result):
+        """Every step of the paths, and every goal, looked at again."""
+        steps = result["steps"]
+        blocked = set()
+        with open(self.path("p.map")) as file:
+            for y, row in enumerate(file.read().split("map\n")[1].split()):
+                blocked |= {(x, y) for x, cell in enumerate(row) if cell == "@"}
+        paths = [[tuple(cell) for cell in path] for path in result["paths"]]
+        for t in range(steps + 1):
+            here = [path[t] for path in paths]
+            self.assertEqual(len(set(here)), len(here))
+            self.assertFalse(blocked & set(here))
+        for path in paths:
+            self.assertEqual(len(path), steps + 1)
+            for a, b in zip(path, path[1:]):
+                self.assertLessEqual(abs(a[0] - b[0]) + abs(a[1] - b[1]), 1)
+        moves = [{(path[t], path[t + 1]) for path in paths if path[t] != path[t + 1]}
+                 for t in range(steps)]
+        for step in moves:
+            self.assertFalse(step & {(b, a) for a, b in step})
+        counted = 0
+        for path, goals in zip(paths, result["goals"]):
+            for step, x, y in goals:
+                self.assertEqual(path[step], (x, y))
+                counted += step > result["warmup"]
+        self.assertEqual(counted, result["goals_reached"])
+        self.assertAlmostEqual(result["throughput"], counted / (steps - result["warmup"]))
+
+    def test_random_goals_at_any_number_of_threads(self):
+        options = ("--agents", 40, "--steps", 60, "--warmup", 10, "--step-expansions", 5000,
+                   "--seed", 3)
+        one = self.roll(*options, "--threads", 1)
+        for key in KEYS:
+            self.assertIn(key, one)
+        self.assertEqual(set(one["service_steps"]), {"mean", "median", "p99", "max"})
+        self.assertGreater(one["throughput"], 1)
+        self.require_sound(one)
+        two = self.roll(*options, "--threads", 3)
+        self.assertEqual(one["paths"], two["paths"])
+        self.assertEqual(one["goals"], two["goals"])
+
+    def test_takes_starts_of_a_scenario_and_a_limit_of_time(self):
+        result = self.roll("--starts", "p.scen", "--agents", 7, "--steps", 20, "--step-time", 0.001)
+        self.assertEqual(len(result["paths"]), 7)
+        self.require_sound(result)
+
+    def test_lists_of_goals(self):
+        self.write_problem("p", ["......", "......"], [((0, 0), (5, 0))])
+        self.write("t.yaml", "robots:\n- {start: [0, 0], goals: [[5, 0], [0, 1]]}\n"
+                             "- {start: [5, 0], goals: [[0, 1]]}\n- {start: [3, 0]}\n")
+        result = self.roll("--tasks", "t.yaml", "--steps", 30, "--warmup", 0)
+        self.require_sound(result)
+        self.assertEqual([[goal[1:] for goal in goals] for goals in result["goals"]],
+                         [[[5, 0], [0, 1]], [[0, 1]], []])
+
+    def test_the_leagues_files(self):
+        self.write_problem("p", ["......", "......"], [((0, 0), (5, 0))])
+        self.write("t.agents", "2\n0\n5\n")
+        self.write("t.tasks", "3\n5\n0\n6,11\n")
+        self.expect(0, "roll", "--map", "p.map", "--starts", "t.agents", "--tasks", "t.tasks",
+                    "--steps", 40, "--export", "lorr", "--output", "r.json")
+        result = self.read_json("r.json")
+        self.assertEqual(result["teamSize"], 2)
+        self.assertEqual(result["numTaskFinished"], 4)
+        moves = {"U": (-1, 0), "D": (1, 0), "L": (0, -1), "R": (0, 1), "W": (0, 0)}
+        for robot in range(2):
+            row, column, _ = result["start"][robot]
+            cells = [[row, column]]
+            for letter in result["actualPaths"][robot].split(","):
+                row, column = row + moves[letter][0], column + moves[letter][1]
+                cells.append([row, column])
+            self.assertEqual(len(cells), 41)
+            for task, step, word in result["events"][robot]:
+                if word == "finished":
+                    self.assertEqual(cells[step], result["tasks"][task][2])
+
+    def refuse(self, parts, *options):
+        self.expect_refusal(parts, "roll", "--map", "p.map", *options)
+
+    def test_refuses_what_cannot_be(self):
+        self.write("t.yaml", "robots:\n- {start: [0, 99]}\n")
+        self.refuse(["t.yaml:2", "robot 0", "outside"], "--tasks", "t.yaml")
+        self.refuse("--agents", "--steps", 5)
+        self.refuse(["'t.txt'", ".tasks"], "--tasks", "t.txt", "--agents", 2)
+        self.refuse("connected", "--agents", 9999)
+        self.refuse("--window", "--agents", 2, "--window", 32)
+        self.refuse("exclude", "--agents", 2, "--step-time", 1, "--step-expansions", 1)
+        self.refuse("warmup", "--agents", 2, "--steps", 10, "--warmup", 10)
+        self.refuse("lorr", "--agents", 2, "--export", "planviz", "--output", "x.json")
+        self.refuse("starts of its own", "--tasks", "t.yaml", "--starts", "p.scen")
+
+    def test_a_limit_ends_the_run(self):
+        result = self.roll("--agents", 40, "--steps", 1000000, "--time-limit", 0.5, code=3)
+        self.assertGreater(result["steps"], 0)
+        self.assertLess(result["steps"], 1000000)
+
+
+if __name__ == "__main__":
+    unittest.main()
