@@ -1,4 +1,5 @@
 #include <cstdint>
+#include <fstream>
 #include <iostream>
 #include <limits>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "tool/command_line.h"
 #include "tool/commands.h"
 #include "tool/files.h"
+#include "tool/vda5050_orders.h"
 
 namespace split_mapf::tool {
 namespace {
@@ -97,6 +99,17 @@ class Conversion {
   std::vector<PosedRobot> robots_;  ///< of a scenario of poses
 };
 
+void writeText(const std::string& output, const std::string& text) {
+  if (output == "-") {
+    std::cout << text;
+    return;
+  }
+  std::ofstream out(output, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw InputError(output + ": cannot be written in full");
+}
+
 }  // namespace
 
 ExitCode runConvert(const Call& call) {
@@ -105,7 +118,8 @@ ExitCode runConvert(const Call& call) {
                    "other programs: `width`, `height`, `resolution` [m], `origin` [x, y, yaw],\n"
                    "`occupancy` (base64, a byte a cell from the top left on: 0 to 100, 255 is\n"
                    "unknown), `starts` and `goals` ([x, y], y from the top), or, of a scenario of\n"
-                   "poses, `robots` (`id`, `start` and `goal` [x, y, yaw], `radius` or null).");
+                   "poses, `robots` (`id`, `start` and `goal` [x, y, yaw], `radius` or null).\n"
+                   "With --export vda5050: a plan as orders of VDA 5050.");
   line.offer("map", "FILE", "MovingAI .map, or map_server .yaml");
   line.offer("size", "WxH",
              "instead of --map: the size of a map that is elsewhere; whether its cells are free is "
@@ -114,9 +128,15 @@ ExitCode runConvert(const Call& call) {
   line.offer("agents", "N", "the scenario's first N rows (all)");
   line.offer("resolution", "M", "side of a cell of a MovingAI .map in metres (1)");
   line.offer("output", "FILE", "write the JSON there; - for standard output (-)");
+  offerOrderOptions(line);
   if (!line.parse(call.arguments)) return ExitCode::kOk;
   const std::string output = line.text("output", "-");
+  const bool orders = asksForOrders(line);
   if (output != "-") requireWritable(output);
+  if (orders) {
+    writeText(output, ordersOf(line));
+    return ExitCode::kOk;
+  }
   Conversion(line).write(output);
   return ExitCode::kOk;
 }
