@@ -18,6 +18,22 @@ target_sources(planner_node PRIVATE src/node/memory_return.cpp)
 target_link_libraries(planner_node PRIVATE split_mapf_available_solvers)
 target_link_libraries(executor_node PRIVATE split_mapf_available_solvers)
 
+# The bridge to robots that speak VDA 5050 over MQTT, where libmosquitto is.
+find_path(MOSQUITTO_INCLUDE_DIR mosquitto.h)
+find_library(MOSQUITTO_LIBRARY mosquitto)
+mark_as_advanced(MOSQUITTO_INCLUDE_DIR MOSQUITTO_LIBRARY)
+if(MOSQUITTO_INCLUDE_DIR AND MOSQUITTO_LIBRARY)
+  add_executable(vda5050_bridge_node
+    src/node/vda5050_bridge_node.cpp src/node/mqtt_client.cpp src/node/run_node.cpp)
+  target_include_directories(vda5050_bridge_node
+    PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src ${MOSQUITTO_INCLUDE_DIR})
+  target_link_libraries(vda5050_bridge_node PRIVATE split_mapf_ros ${MOSQUITTO_LIBRARY})
+  split_mapf_compile_options(vda5050_bridge_node)
+  install(TARGETS vda5050_bridge_node RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+else()
+  message(STATUS "libmosquitto is not here: vda5050_bridge_node is left out")
+endif()
+
 catkin_install_python(PROGRAMS scripts/plan_client.py scripts/check_distances.py scripts/fleet_client.py
   scripts/start_rviz.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})

@@ -25,3 +25,8 @@ add_rostest(test/ros/fleet.test DEPENDENCIES executor_node fake_robots_node spli
 find_program(SPLIT_MAPF_PYTHON python3 HINTS /usr/bin)
 add_test(NAME check_distances COMMAND ${CATKIN_ENV} ${SPLIT_MAPF_PYTHON} -B
   ${CMAKE_CURRENT_SOURCE_DIR}/test/ros/check_distances_test.py)
+set(SPLIT_MAPF_BRIDGE)
+if(TARGET vda5050_bridge_node)
+  set(SPLIT_MAPF_BRIDGE vda5050_bridge_node)
+endif()
+add_rostest(test/ros/robots.test DEPENDENCIES executor_node split_mapf ${SPLIT_MAPF_BRIDGE})

@@ -2,7 +2,7 @@
 # Checks who includes and links whom, as docs and headers promise:
 #   core at the ground; roadmap, solver, split side by side above it, never seeing each other; io
 #   above core and roadmap; then pipeline; then ros and tool; node on top of ros. Only ros and node know ROS, only one wrapper in
-#   the ILP solver knows GLPK, public headers include no private ones, and the core library links neither.
+#   the ILP solver knows GLPK, only one in a node MQTT, public headers include no private ones, and the core library links neither.
 # The checker first has to find violations that are planted in small trees of its own.
 #
 # usage: test/layering_test.sh [REPOSITORY]
@@ -61,6 +61,10 @@ judge_include() {
   fi
   if [[ $header == glpk.h && $place != src/solver/ilp/glpk_model.cpp:* ]]; then
     echo "$place: only the wrapper src/solver/ilp/glpk_model.cpp may include $header"
+    return
+  fi
+  if [[ $header == mosquitto.h && $place != src/node/mqtt_client.cpp:* ]]; then
+    echo "$place: only src/node/mqtt_client.cpp may include $header"
     return
   fi
   if [[ $place == include/* && $3 == \"* && $header != split_mapf/* ]]; then
@@ -173,6 +177,7 @@ test_the_checker() {
   require_found src/pipeline/room.cpp '#include <glpk.h>'
   require_found src/solver/room.cpp '#include "glpk.h"'
   require_found src/solver/ilp/master.cpp '#include <glpk.h>'
+  require_found src/ros/room.cpp '#include <mosquitto.h>'
   require_found include/split_mapf/core/room.h '#include "core/private_room.h"'
   require_found src/stray.cpp '#include <vector>'
   require_found cmake/libraries.cmake 'target_link_libraries(split_mapf_core PUBLIC ${catkin_LIBRARIES})'

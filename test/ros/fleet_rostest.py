@@ -3,119 +3,36 @@
 again, and progress, goals and services that are wrong have their answers. Positions are checked by
 a script that knows the bag alone."""
 
-import json
 import math
 import os
 import signal
 import subprocess
 import sys
-import tempfile
-import unittest
 
-import actionlib
 import rosbag
 import roslib.packages
 import rospy
 import rosunit
-from nav_msgs.msg import OccupancyGrid
 
-from ros_processes import Recorder, SentGoal, start_program, wait_until
-from split_mapf.msg import (ExecutePlanAction, ExecutePlanGoal, FleetState, MultiRobotPlan,
-                            PlanOutcome, RobotPath, RobotProgress, RobotState, RobotTask)
+from fleet_case import FleetCase
+from ros_processes import start_program, wait_until
+from split_mapf.msg import (MultiRobotPlan, PlanOutcome, RobotPath, RobotProgress, RobotState,
+                            RobotTask)
 from split_mapf.srv import AddRobot, BlockCells, PauseRobots, RemoveRobot
 
-ROBOTS = 24
-STEP = 0.15
 PATIENCE = 90
 # Twice the radius of the largest robot that fits into the cells.
 APART = 0.70
 
 
-def command():
-    return roslib.packages.find_node("split_mapf", "split_mapf")[0]
-
-
-def run(*arguments):
-    subprocess.run((command(),) + arguments, check=True, stdout=subprocess.DEVNULL)
-
-
-class Fleet(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        rospy.init_node("fleet_rostest")
-        cls.directory = tempfile.TemporaryDirectory()
-        cls.map_message, cls.plan = cls.make_plan(cls.directory.name)
-        cls.map_topic = rospy.Publisher("map", OccupancyGrid, queue_size=1, latch=True)
-        cls.map_topic.publish(cls.map_message)
-        cls.plan_topic = rospy.Publisher("plan", MultiRobotPlan, queue_size=1, latch=True)
-        cls.plan_topic.publish(cls.plan)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.directory.cleanup()
-
-    @classmethod
-    def make_plan(cls, directory):
-        files = {name: os.path.join(directory, "fleet." + name) for name in ("map", "scen", "plan")}
-        instance = ("--map", files["map"], "--scen", files["scen"])
-        run("generate", "--type", "warehouse", "--width", "28", "--height", "16", "--agents",
-            str(ROBOTS), "--seed", "1", "--output-map", files["map"], "--output-scen",
-            files["scen"])
-        run("plan", *instance, "--objective", "sum_of_costs", "--output", files["plan"])
-        with open(files["map"], encoding="ascii") as file:
-            rows = file.read().split("\nmap\n", 1)[1].split()
-        with open(files["plan"], encoding="ascii") as file:
-            found = json.load(file)
-        grid = OccupancyGrid()
-        grid.header.frame_id = "map"
-        grid.info.width, grid.info.height, grid.info.resolution = len(rows[0]), len(rows), 1.0
-        grid.info.origin.orientation.w = 1.0
-        grid.data = [0 if cell == "." else 100 for row in reversed(rows) for cell in row]
-        plan = MultiRobotPlan(grid=grid.info, step_duration=STEP, makespan=found["makespan"],
-                              sum_of_costs=found["sum_of_costs"], objective="sum_of_costs")
-        plan.header.frame_id = "map"
-        for index, path in enumerate(found["paths"]):
-            plan.paths.append(RobotPath(robot_id="r%d" % index, cells=[
-                (len(rows) - 1 - y) * len(rows[0]) + x for x, y in path]))
-        return grid, plan
-
-    def setUp(self):
-        self.file = os.path.join(self.directory.name, "execution.json")
-        if os.path.exists(self.file):
-            os.remove(self.file)
-        for name in ("/fleet", "/fake_robots"):
-            if rospy.has_param(name):
-                rospy.delete_param(name)
-        self.progress = Recorder("progress", RobotProgress)
-        self.addCleanup(self.progress.close)
-        self.states = Recorder("fleet/state", FleetState)
-        self.addCleanup(self.states.close)
-
-    def start_fleet(self, patience=5.0):
-        fleet = start_program("executor_node", "_execution_file:=" + self.file,
-                              "_replan_period:=1.0", "_threads:=1", "_progress_timeout:=%g" % patience)
-        self.addCleanup(fleet.end)
-        self.assertTrue(fleet.wait_for_output("ready:"), fleet.output())
-        return fleet
-
+class Fleet(FleetCase):
     def start_robots(self, failures=()):
         rospy.set_param("/fake_robots/failures", list(failures))
-        robots = start_program("fake_robots_node", "routes:=fleet/routes", "_speed:=%g" % (1 / STEP),
-                               "_rate:=20", "_delay_probability:=0.01", "_min_delay:=3",
-                               "_max_delay:=8", "_delay_step:=%g" % STEP)
+        robots = start_program("fake_robots_node", "routes:=fleet/routes",
+                               "_speed:=%g" % (1 / self.STEP), "_rate:=20", "_delay_probability:=0.01", "_min_delay:=3",
+                               "_max_delay:=8", "_delay_step:=%g" % self.STEP)
         self.addCleanup(robots.end)
         return robots
-
-    def send(self, plan=None):
-        client = actionlib.ActionClient("fleet/execute", ExecutePlanAction)
-        self.assertTrue(client.wait_for_server(rospy.Duration(30)))
-        return SentGoal(client, ExecutePlanGoal(plan=plan or self.plan))
-
-    def latest(self):
-        return self.states.messages[-1].robots if self.states.messages else []
-
-    def count(self, state):
-        return sum(robot.state == state for robot in self.latest())
 
     def assert_kept_apart(self):
         path = os.path.join(self.directory.name, self.id().rsplit(".", 1)[-1] + ".bag")
@@ -137,7 +54,7 @@ class Fleet(unittest.TestCase):
         result = goal.result()
         self.assertEqual(result.outcome, PlanOutcome.ROBOT_BLOCKED, result.message)
         self.assertEqual([fault.robot_id for fault in result.faults], [victim])
-        self.assertEqual(self.count(RobotState.ARRIVED), ROBOTS - 1)
+        self.assertEqual(self.count(RobotState.ARRIVED), self.ROBOTS - 1)
         self.assertFalse(os.path.exists(self.file))
         self.assert_kept_apart()
 
@@ -145,10 +62,10 @@ class Fleet(unittest.TestCase):
         fleet = self.start_fleet()
         self.start_robots()
         self.send()
-        far = ROBOTS // 4
+        far = self.ROBOTS // 4
         self.assertTrue(wait_until(lambda: self.count(RobotState.ARRIVED) >= far, PATIENCE),
                         fleet.output())
-        self.assertLess(self.count(RobotState.ARRIVED), ROBOTS)
+        self.assertLess(self.count(RobotState.ARRIVED), self.ROBOTS)
         fleet.signal(signal.SIGKILL)
         fleet.wait()
         self.assertTrue(os.path.exists(self.file))
@@ -158,7 +75,7 @@ class Fleet(unittest.TestCase):
         goal = self.send()
         self.assertTrue(goal.wait_for_end(PATIENCE), fleet.output())
         self.assertEqual(goal.result().outcome, PlanOutcome.SUCCEEDED, goal.result().message)
-        self.assertEqual(self.count(RobotState.ARRIVED), ROBOTS)
+        self.assertEqual(self.count(RobotState.ARRIVED), self.ROBOTS)
         self.assert_kept_apart()
 
     def test_answers_what_cannot_be(self):
@@ -167,7 +84,7 @@ class Fleet(unittest.TestCase):
         # The node hears of their places before it knows any map.
         self.assertTrue(wait_until(lambda: len(self.progress.messages) > 2 * ROBOTS))
         wrong = MultiRobotPlan()
-        wrong.header, wrong.grid, wrong.step_duration = self.plan.header, self.plan.grid, STEP
+        wrong.header, wrong.grid, wrong.step_duration = self.plan.header, self.plan.grid, self.STEP
         wrong.paths = [RobotPath(robot_id="ghost", cells=[0])]
         for plan, outcome, word in (
                 (self.elsewhere(), PlanOutcome.INVALID_POSE, "begins"),
@@ -213,7 +130,7 @@ class Fleet(unittest.TestCase):
         self.assertIn("report", call("add_robot", AddRobot, RobotTask(robot_id="ghost")).message)
 
     def altered(self):
-        plan = MultiRobotPlan(header=self.plan.header, grid=self.plan.grid, step_duration=STEP)
+        plan = MultiRobotPlan(header=self.plan.header, grid=self.plan.grid, step_duration=self.STEP)
         plan.paths = [RobotPath(robot_id=path.robot_id, cells=list(path.cells))
                       for path in self.plan.paths]
         plan.makespan, plan.sum_of_costs = self.plan.makespan, self.plan.sum_of_costs

@@ -1,0 +1,42 @@
+// The bridge to robots that speak VDA 5050 over MQTT: wiring only.
+
+#include <memory>
+#include <string>
+
+#include <ros/ros.h>
+
+#include "node/mqtt_client.h"
+#include "node/run_node.h"
+#include "split_mapf/ros/vda5050_bridge.h"
+
+namespace {
+
+void run(split_mapf::NodeContext& context) {
+  const split_mapf::Vda5050BridgeOptions options =
+      split_mapf::readVda5050BridgeOptions(context.parameters);
+  std::unique_ptr<split_mapf::MqttClient> client;
+  split_mapf::Vda5050Bridge bridge(context.node, context.private_node, options,
+                                   [&client](const std::string& topic, const std::string& text) {
+                                     return client->send(topic, text);
+                                   });
+  split_mapf::MqttSetup setup;
+  setup.host = options.host;
+  setup.port = options.port;
+  setup.user = options.user;
+  setup.password = options.password;
+  setup.topics = bridge.topics();
+  setup.connected = [&bridge] { bridge.connected(); };
+  setup.lost = [&bridge](const std::string& why) { bridge.lost(why); };
+  setup.receive = [&bridge](const std::string& topic, const std::string& text) {
+    bridge.receive(topic, text);
+  };
+  client = std::make_unique<split_mapf::MqttClient>(setup);
+  client->start();
+  split_mapf::serve(1, "ready: broker " + options.host + ":" + std::to_string(options.port));
+  // Before the bridge that it calls; by now no callback of ROS runs.
+  client.reset();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return split_mapf::runNode(argc, argv, "vda5050_bridge", run); }
