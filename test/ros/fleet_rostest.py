@@ -29,8 +29,9 @@ class Fleet(FleetCase):
     def start_robots(self, failures=()):
         rospy.set_param("/fake_robots/failures", list(failures))
         robots = start_program("fake_robots_node", "routes:=fleet/routes",
-                               "_speed:=%g" % (1 / self.STEP), "_rate:=20", "_delay_probability:=0.01", "_min_delay:=3",
-                               "_max_delay:=8", "_delay_step:=%g" % self.STEP)
+                               "_speed:=%g" % (1 / self.STEP), "_rate:=20",
+                               "_delay_probability:=0.01", "_min_delay:=3", "_max_delay:=8",
+                               "_delay_step:=%g" % self.STEP)
         self.addCleanup(robots.end)
         return robots
 

@@ -13,6 +13,8 @@ import time
 
 import paho.mqtt.client
 
+from keeping_apart import tell_who_is_too_close
+
 TICK = 0.02
 STATE_PERIOD = 0.2
 REACH = 0.3  # how far from its first node a vehicle takes an order up
@@ -166,10 +168,7 @@ class Vehicles:
                     self.publish(vehicle.serial, "state",
                                  vehicle.state(self.header(vehicle.serial)))
                     vehicle.news = False
-            for one, other in itertools.combinations(self.vehicles.values(), 2):
-                apart = math.hypot(one.x - other.x, one.y - other.y)
-                if apart < self.args.apart:
-                    print("too close: %s, %s: %g" % (one.serial, other.serial, apart), flush=True)
+            tell_who_is_too_close(self.vehicles, self.args.apart)
 
 
 def main():

@@ -86,8 +86,8 @@ class Vda5050Test(CommandTest):
         self.write("m.pgm", "P2 4 3 255\n" + "254 " * 5 + "0 " + "254 " * 6)
         self.write("m.yaml", "image: m.pgm\nresolution: 0.5\norigin: [10, 20, 1.5707963267948966]\n"
                    "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n")
-        result = self.expect(0, "convert", "--map", "m.yaml", "--scen", "p.scen", "--plan", "p.json",
-                             "--export", "vda5050")
+        result = self.expect(0, "convert", "--map", "m.yaml", "--scen", "p.scen", "--plan",
+                             "p.json", "--export", "vda5050")
         place = json.loads(result.stdout)[0]["nodes"][0]["nodePosition"]
         # Cell (0, 0) is the top left one: 0.25 m along, 1.25 m up, turned by a quarter.
         self.assertAlmostEqual(place["x"], 10 - 1.25)
