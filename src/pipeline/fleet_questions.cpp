@@ -76,6 +76,7 @@ FleetQuestion FleetExecution::makeQuestion(bool anew) {
   }
   for (const Vertex at : joiners) blocked[at] = false;
   asked_ = true;
+  asked_anew_ = anew;
   question_version_ = version_;
   if (anew) incident_ = false;
   ReplanBudget budget = options_.budget;
@@ -96,6 +97,10 @@ FleetQuestion FleetExecution::makeQuestion(bool anew) {
           budget,
           avoid,
           ground_};
+}
+
+bool FleetExecution::isUrgent() const {
+  return asked_ && (!isAwaited() || (incident_ && !asked_anew_));
 }
 
 void FleetExecution::take(FleetAnswer answer, double now) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "pipeline/fleet_goals.h"
+#include "pipeline/mended_rest.h"
 #include "solver/search/ring_breaking.h"
 #include "split_mapf/core/error.h"
 
@@ -74,6 +75,7 @@ class FleetRun {
                                       takes_part, answer_.faults);
       answer_.faults = std::move(chosen.faults);
       setGround(open, chosen.goals);
+      if (tryToMend()) break;
       const std::optional<std::uint32_t> hopeless = tryToPlan(planner, request);
       if (!hopeless) break;
       answer_.faults[*hopeless] = GoalFault::kNoWay;
@@ -82,10 +84,30 @@ class FleetRun {
   }
 
  private:
+  /// Keeps what can be kept of the plan under execution. @return whether that gave a plan without
+  /// rings; others are better planned as a whole.
+  bool tryToMend() {
+    const Instance& instance = answer_.ground->instance;
+    const Precedence order = restBehind(question_.graph, question_.cut);
+    Plan rest = planOf(order, earliestSteps(order));
+    trimToArrival(rest);
+    const std::vector<std::uint32_t> diverted = findDiverted(instance, rest, question_.blocked);
+    // Nobody has to go elsewhere, and still they do not get on.
+    if (diverted.empty()) return false;
+    std::optional<Plan> mended =
+        mendRest(instance, std::move(rest), diverted, question_.budget.seed, deadline_);
+    if (!mended) return false;
+    keepBest(*std::move(mended));
+    return !breaksRings() || answer_.rings == 0;
+  }
+
+  /// Whether a ring would never begin.
+  bool breaksRings() const { return question_.avoid_rings && question_.graph.release() > 0; }
+
   /// @return a robot whose goal nobody can bring it to, where that is why there is no plan.
   std::optional<std::uint32_t> tryToPlan(const Planner& planner, PlanRequest request) {
     request.seed += question_.budget.seed;
-    const bool breaks = question_.avoid_rings && question_.graph.release() > 0;
+    const bool breaks = breaksRings();
     const std::string solver = request.solver;
     for (std::uint32_t tries = 0; tries < (breaks ? kTriesAtRings : 1); ++tries) {
       // Plans of robots that are planned one by one have fewer rings.
@@ -97,7 +119,7 @@ class FleetRun {
         if (tries == 0 && report.refusal) return whoGivesUp(*report.refusal);
         continue;
       }
-      keepBest(*report.plan, breaks);
+      keepBest(*report.plan);
       if (!breaks || answer_.rings == 0 || deadline_.expired()) break;
       ++request.seed;
     }
@@ -113,8 +135,8 @@ class FleetRun {
     return std::nullopt;
   }
 
-  void keepBest(Plan plan, bool breaks) {
-    if (breaks) plan = breakRings(answer_.ground->instance, std::move(plan), {}, deadline_);
+  void keepBest(Plan plan) {
+    if (breaksRings()) plan = breakRings(answer_.ground->instance, std::move(plan), {}, deadline_);
     trimToArrival(plan);
     ExecutionGraph joined = concatenate(question_.graph, question_.cut, plan);
     const std::uint32_t rings = ringsOf(joined);

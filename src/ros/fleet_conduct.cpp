@@ -119,23 +119,29 @@ void FleetServer::tick() {
 }
 
 void FleetServer::askLocked(double time) {
-  if (replans_) return;
+  if (replans_) {
+    if (fleet_->isUrgent()) hurry_->request();
+    return;
+  }
+  if (stop_->requested()) return;
   std::optional<FleetQuestion> question = fleet_->ask(time);
   if (!question) return;
   if (replanner_.joinable()) replanner_.join();
   replans_ = true;
-  replanner_ = std::thread(
-      [this, epoch = epoch_, question = std::move(*question)]() { replan(question, epoch); });
+  hurry_ = std::make_shared<StopFlag>();
+  replanner_ = std::thread([this, epoch = epoch_, hurry = hurry_,
+                            question = std::move(*question)]() { replan(question, epoch, hurry); });
 }
 
 /// In a thread of its own.
-void FleetServer::replan(const FleetQuestion& question, std::uint64_t epoch) {
+void FleetServer::replan(const FleetQuestion& question, std::uint64_t epoch,
+                         const std::shared_ptr<StopFlag>& hurry) {
   const ros::WallTime begin = ros::WallTime::now();
   FleetAnswer answer;
   const PlanRequest& request = options_.server.goal.plan;
   const double limit = question.anew ? request.time_limit_sec : options_.replan_budget_sec;
   try {
-    answer = answerFleet(question, planner_, request, Deadline(limit, stop_));
+    answer = answerFleet(question, planner_, request, Deadline(limit, hurry));
   } catch (const std::exception& error) {
     answer.version = question.version;
     answer.anew = question.anew;

@@ -54,7 +54,8 @@ FleetServer::FleetServer(const ros::NodeHandle& node, const ros::NodeHandle& pri
       transformer_(transformer),
       node_(node),
       kept_may_exist_(!options.execution_file.empty()),
-      stop_(std::make_shared<StopFlag>()) {
+      stop_(std::make_shared<StopFlag>()),
+      hurry_(std::make_shared<StopFlag>()) {
   ros::NodeHandle own(private_node);
   all_routes_ = own.advertise<RobotRoute>(
       "routes", kQueue,
@@ -83,6 +84,7 @@ void FleetServer::shutdown() {
   timer_.stop();
   stop_->request();
   const Lock lock(mutex_);
+  hurry_->request();
   ExecutePlanResult result;
   result.outcome = codeOf(Outcome::kCancelled);
   result.message = "the node ends; robots stop at the end of what is released to them";

@@ -245,6 +245,24 @@ TEST(FleetExecution, LetsRobotsGoAndJoin) {
   EXPECT_EQ(small.fleet->route(1, 100).back().vertex, 4U);
 }
 
+TEST(FleetExecution, WaitsForNoImprovementWhereARobotDropsOut) {
+  Small small({"....", "...."}, {{0, 1, 2, 3}, {4, 5, 6, 7}});
+  EXPECT_FALSE(small.fleet->isUrgent());
+  auto question = small.fleet->ask(0);
+  ASSERT_TRUE(question && !question->anew);
+  EXPECT_FALSE(small.fleet->isUrgent());
+  small.fleet->report(0, {0, 0, DriveStatus::kFault, {}}, 1);
+  EXPECT_TRUE(small.fleet->isUrgent());
+  // An answer in haste is as good as any.
+  PlanRequest request;
+  small.fleet->take(answerFleet(*question, small.planner, request, Deadline(0)), 1);
+  question = small.fleet->ask(1);
+  ASSERT_TRUE(question && question->anew);
+  EXPECT_FALSE(small.fleet->isUrgent()) << "a plan is being made";
+  small.fleet->remove(0);
+  EXPECT_TRUE(small.fleet->isUrgent()) << "it will not be taken";
+}
+
 TEST(FleetExecution, TakesInARobotThatWasAnObstacleUntilThen) {
   Small small({"....", "...."}, {{0, 1, 2, 3}});
   std::vector<bool> strangers(8, false);

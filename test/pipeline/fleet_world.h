@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <ctime>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -154,9 +155,17 @@ class FleetWorld {
     body.reports.push_back({tick_ + static_cast<int>(drawBelow(engine_, 4)), report});
   }
 
+  /// Mostly where it began, among thousands.
+  std::optional<std::uint32_t> find(std::uint32_t body) const {
+    const std::string& id = bodies_[body].id;
+    if (body < fleet_->robots() && fleet_->id(body) == id) return body;
+    return fleet_->find(id);
+  }
+
   void deliverReports() {
-    for (Body& body : bodies_) {
-      const auto robot = fleet_->find(body.id);
+    for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
+      Body& body = bodies_[i];
+      const auto robot = find(i);
       if (body.fresh && robot && !body.silent)
         fleet_->hear(*robot, body.status, std::nullopt, now_);
       while (!body.reports.empty() && body.reports.front().due <= tick_) {
@@ -168,7 +177,11 @@ class FleetWorld {
 
   void conductReplans() {
     if (question_ && question_due_ <= tick_) {
-      fleet_->take(answerFleet(*question_, planner_, request_, {}), now_);
+      const std::clock_t began = std::clock();
+      FleetAnswer answer = answerFleet(*question_, planner_, request_, {});
+      const auto took = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
+      (question_->anew ? anew_sec_ : improved_sec_).push_back(took);
+      fleet_->take(std::move(answer), now_);
       question_.reset();
     }
     if (question_) return;
@@ -192,17 +205,20 @@ class FleetWorld {
     }
   }
 
+  std::optional<FleetQuestion> question_;
+  int question_due_ = 0;
+
+ public:
   PlanRequest request_ = [] {
     PlanRequest request;
     request.split = "none";
     request.objective = Objective::kSumOfCosts;
     return request;
   }();
-  std::optional<FleetQuestion> question_;
-  int question_due_ = 0;
-
- public:
   std::vector<ReportFate> fates_;
+  /// What answers took, of plans made anew and of improvements [s of CPU].
+  std::vector<double> anew_sec_;
+  std::vector<double> improved_sec_;
 };
 
 }  // namespace split_mapf::test

@@ -19,8 +19,16 @@ double leastNorm(double ax, double ay, double bx, double by) {
 
 void DiscChecker::next(const std::vector<Point>& centres) {
   if (last_.empty()) last_ = centres;
+  double moved = 0;
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    moved = std::max(moved, std::hypot(centres[i].x - last_[i].x, centres[i].y - last_[i].y));
+  }
+  // Who is farther apart cannot come closer than the least distance so far.
+  const double reach = least_ + 2 * moved;
   for (std::size_t i = 0; i < centres.size(); ++i) {
     for (std::size_t j = i + 1; j < centres.size(); ++j) {
+      if (std::abs(last_[i].x - last_[j].x) > reach) continue;
+      if (std::abs(last_[i].y - last_[j].y) > reach) continue;
       const double near = leastNorm(last_[i].x - last_[j].x, last_[i].y - last_[j].y,
                                     centres[i].x - centres[j].x, centres[i].y - centres[j].y);
       if (near >= least_) continue;

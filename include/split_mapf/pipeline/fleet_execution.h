@@ -108,6 +108,9 @@ class FleetExecution {
   /// What has to be replanned, if anything. @pre every question so far was answered.
   std::optional<FleetQuestion> ask(double now);
   void take(FleetAnswer answer, double now);
+  /// Whether a question is out whose answer should come at once, however little it brings: it will
+  /// not be taken, or the rest has to be planned anew meanwhile.
+  bool isUrgent() const;
 
   // --- How it stands ---
   std::uint32_t robots() const { return static_cast<std::uint32_t>(robots_.size()); }
@@ -239,6 +242,7 @@ class FleetExecution {
   bool incident_ = false;  ///< the rest has to be planned anew
   /// The question that is out: its cut, where robots were, and who stood without a promise.
   bool asked_ = false;
+  bool asked_anew_ = false;
   std::uint64_t question_version_ = 0;
   Cut question_cut_;
   std::vector<VisitId> question_at_;

@@ -118,7 +118,8 @@ class FleetServer {
   // As time goes by.
   void tick();
   void askLocked(double now);
-  void replan(const FleetQuestion& question, std::uint64_t epoch);
+  void replan(const FleetQuestion& question, std::uint64_t epoch,
+              const std::shared_ptr<StopFlag>& hurry);
   void keepLocked(double now);
   void publishRoutes(double now);
   void publishState(double now);
@@ -157,6 +158,7 @@ class FleetServer {
   std::vector<ros::ServiceServer> services_;
   ros::WallTimer timer_;
   std::shared_ptr<StopFlag> stop_;
+  std::shared_ptr<StopFlag> hurry_;  ///< of the replan that runs
   std::thread replanner_;
   bool replans_ = false;
   std::unique_ptr<Server> server_;
