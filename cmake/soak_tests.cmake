@@ -17,7 +17,7 @@ if(TARGET solver_tests)
 endif()
 if(TARGET pipeline_tests)
   split_mapf_add_soak(reservations pipeline_tests --gtest_filter=Reservations.AreKeptByEvery*)
-  split_mapf_add_soak(fleet pipeline_tests --gtest_filter=FleetExecution.*)
+  split_mapf_add_soak(fleet pipeline_tests --gtest_filter=FleetRuns.*)
   split_mapf_add_soak(fleet_crowd pipeline_tests --gtest_filter=FleetCrowd.*)
 endif()
 # Without ilp: a few of so many instances keep it busy for minutes.

@@ -46,6 +46,7 @@ bool FleetExecution::leadsToClosed() const {
 
 /// Cells that are open again may give a way to robots that had none.
 void FleetExecution::openCells() {
+  ++openings_;
   const auto lacks_way = [](const Robot& robot) { return robot.fault != GoalFault::kNone; };
   if (std::any_of(robots_.begin(), robots_.end(), lacks_way)) incident_ = true;
   closeCells();

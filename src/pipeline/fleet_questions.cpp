@@ -78,6 +78,7 @@ FleetQuestion FleetExecution::makeQuestion(bool anew) {
   asked_ = true;
   asked_anew_ = anew;
   question_version_ = version_;
+  question_openings_ = openings_;
   if (anew) incident_ = false;
   ReplanBudget budget = options_.budget;
   budget.seed += questions_++;
@@ -127,6 +128,9 @@ void FleetExecution::take(FleetAnswer answer, double now) {
     for (std::uint32_t robot = 0; robot < robots_.size(); ++robot) {
       robots_[robot].fault = answer.faults[robot];
       if (question_void_[robot]) robots_[robot].void_promise = false;
+      // There may be a way by now.
+      const bool is_late = openings_ != question_openings_;
+      if (is_late && answer.faults[robot] != GoalFault::kNone) incident_ = true;
     }
     next_anew_ = now + std::min(kBetweenPlansSec, options_.step_sec);
     // Made in haste: to be improved at once.

@@ -8,148 +8,9 @@
 #include "pipeline/fleet_world.h"
 #include "split_mapf/core/error.h"
 #include "support/ascii_grid.h"
-#include "support/long_run.h"
-#include "support/random_plan.h"
 
 namespace split_mapf {
 namespace {
-
-using test::FleetWorld;
-
-FleetOptions optionsOf(std::uint64_t seed) {
-  FleetOptions options;
-  options.release = seed % 3 == 0 ? 0.7071 : 0.5;
-  options.replan_period_sec = 3;
-  options.progress_timeout_sec = 2;
-  options.budget = {3000, seed};
-  options.release_ahead = 1 + static_cast<std::uint32_t>(seed % 3);
-  return options;
-}
-
-std::vector<std::vector<std::string>> maps() {
-  return {
-      {"........", ".##..##.", "........", ".##..##.", "........"},
-      {"......", "......", "......", "......", "......"},
-      {".........", ".#.#.#.#.", ".........", ".#.#.#.#.", "........."},
-      {"............", ".####..####.", "............", "............", ".####..####.",
-       "............"},
-      {"...........", "####.#.####", "...........", "...........", "####.#.####", "..........."}};
-}
-
-struct Scene {
-  std::shared_ptr<const Grid> grid;
-  Plan plan;
-};
-
-Scene sceneOf(std::uint64_t seed) {
-  RandomEngine engine(seed);
-  const auto all = maps();
-  Scene run;
-  run.grid = test::gridFromAscii(all[seed % all.size()]);
-  run.plan = test::randomValidPlan(*run.grid, 4 + static_cast<std::uint32_t>(drawBelow(engine, 6)),
-                                   14, engine);
-  return run;
-}
-
-/// A fleet of discs on a scene that belongs to a seed.
-struct Drive {
-  explicit Drive(std::uint64_t number)
-      : seed(number),
-        scene(sceneOf(number)),
-        world(scene.grid, scene.plan, optionsOf(number), number) {}
-  void ticks(std::uint64_t most) {
-    for (std::uint64_t i = 0; i < most; ++i) world.tick();
-  }
-  std::uint64_t seed;
-  Scene scene;
-  FleetWorld world;
-};
-
-/// Whoever has a way has come to its goal, nobody but the victim dropped out, and no robot was ever
-/// too close.
-void expectWell(Drive& run, const std::string& victim = "") {
-  FleetWorld& world = run.world;
-  ASSERT_TRUE(world.run(6000)) << world.fleet_->trouble();
-  EXPECT_TRUE(world.checker_.isClear()) << world.checker_.closest();
-  EXPECT_EQ(world.fleet_->trouble(), "");
-  const std::vector<FleetRobotStatus> all = world.fleet_->status(world.now_);
-  for (std::uint32_t i = 0; i < all.size(); ++i) {
-    if (world.fleet_->id(i) == victim) continue;
-    EXPECT_EQ(all[i].absence, Absence::kNone) << world.fleet_->id(i);
-    // A victim may stand on another one's goal, or in its only way.
-    if (all[i].fault != GoalFault::kNone) {
-      EXPECT_FALSE(victim.empty()) << world.fleet_->id(i);
-    } else {
-      EXPECT_TRUE(all[i].arrived) << world.fleet_->id(i);
-    }
-  }
-}
-
-/// Runs what is to happen for each seed, twenty times as many of them in a long run.
-template <typename What>
-void forSeeds(std::uint64_t seeds, const What& what) {
-  const std::uint64_t all = test::isLongRun() ? 20 * seeds : seeds;
-  for (std::uint64_t seed = 0; seed < all && !::testing::Test::HasFatalFailure(); ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    Drive run(seed);
-    what(run);
-  }
-}
-
-TEST(FleetExecution, BringsLateRobotsToTheirGoals) {
-  forSeeds(40, [](Drive& run) {
-    run.world.delay_one_in_ = 150;
-    expectWell(run);
-    for (const ReportFate fate : run.world.fates_) ASSERT_EQ(fate, ReportFate::kTaken);
-  });
-}
-
-TEST(FleetExecution, GoesOnWithoutTheDead) {
-  std::uint32_t anew = 0;
-  forSeeds(60, [&](Drive& run) {
-    FleetWorld& world = run.world;
-    world.delay_one_in_ = 150;
-    run.ticks(drawBelow(world.engine_, 60));
-    const std::uint64_t drawn = drawBelow(world.engine_, run.scene.plan.paths.size());
-    const std::string victim = "r" + std::to_string(drawn);
-    world.die(victim, run.seed % 2 == 0);
-    expectWell(run, victim);
-    anew += world.anew_;
-  });
-  EXPECT_GT(anew, 10U);
-}
-
-TEST(FleetExecution, IsTakenUpAgainWhenItsConductorDies) {
-  forSeeds(60, [](Drive& run) {
-    FleetWorld& world = run.world;
-    world.delay_one_in_ = 200;
-    const bool one_dies = run.seed % 3 == 0;
-    for (int times = 0; times < 3; ++times) {
-      run.ticks(drawBelow(world.engine_, 60));
-      if (times == 1 && one_dies) world.die("r0", true);
-      // Nobody conducts for a while.
-      world.restart();
-    }
-    expectWell(run, one_dies ? "r0" : "");
-  });
-}
-
-TEST(FleetExecution, LeadsAroundBlockedCellsAndPausedRobots) {
-  forSeeds(40, [](Drive& run) {
-    FleetWorld& world = run.world;
-    run.ticks(25);
-    const std::vector<bool> none(run.scene.grid->size(), false);
-    std::vector<bool> blocked = none;
-    for (int i = 0; i < 3; ++i) blocked[drawBelow(world.engine_, blocked.size())] = true;
-    world.fleet_->setBlocked(blocked);
-    world.fleet_->pause(1, true);
-    run.ticks(100);
-    EXPECT_FALSE(world.fleet_->isFinished()) << "a robot is paused";
-    world.fleet_->pause(1, false);
-    world.fleet_->setBlocked(none);
-    expectWell(run);
-  });
-}
 
 /// A fleet on a corridor map, and its first promises.
 struct Small {
@@ -226,6 +87,21 @@ TEST(FleetExecution, NamesGoalsThatCannotBeReached) {
   EXPECT_EQ(small.fleet->status(0)[0].fault, GoalFault::kBlocked);
   blocked[3] = false;
   small.fleet->setBlocked(blocked);
+  small.answer(1);
+  EXPECT_EQ(small.fleet->status(1)[0].fault, GoalFault::kNone);
+}
+
+TEST(FleetExecution, SeesCellsThatOpenWhileAPlanIsMade) {
+  Small small({"....."}, {{0, 1, 2, 3}, {4}});
+  std::vector<bool> blocked(5, false);
+  blocked[3] = true;
+  small.fleet->setBlocked(blocked);
+  const auto question = small.fleet->ask(0);
+  ASSERT_TRUE(question);
+  blocked[3] = false;
+  small.fleet->setBlocked(blocked);
+  small.fleet->take(answerFleet(*question, small.planner, {}, {}), 0);
+  EXPECT_FALSE(small.fleet->isFinished());
   small.answer(1);
   EXPECT_EQ(small.fleet->status(1)[0].fault, GoalFault::kNone);
 }

@@ -248,6 +248,8 @@ class FleetExecution {
   std::vector<VisitId> question_at_;
   std::vector<bool> question_void_;
   std::size_t question_joiners_ = 0;
+  std::uint64_t question_openings_ = 0;
+  std::uint64_t openings_ = 0;  ///< times that cells may have been opened
   bool restoring_ = false;
   std::uint32_t restored_ahead_ = 0;
   bool all_paused_ = false;
