@@ -25,10 +25,6 @@ std::vector<std::uint32_t> cellsOf(const Grid& grid) {
   return cells;
 }
 
-std::uint32_t ringsOf(const ExecutionGraph& graph) {
-  return static_cast<std::uint32_t>(graph.rings().size());
-}
-
 /// One call of answerFleet().
 class FleetRun {
  public:
@@ -110,6 +106,7 @@ class FleetRun {
     const bool breaks = breaksRings();
     const std::string solver = request.solver;
     for (std::uint32_t tries = 0; tries < (breaks ? kTriesAtRings : 1); ++tries) {
+      if (!rings_.empty()) cutRings(tries);
       // Plans of robots that are planned one by one have fewer rings.
       request.solver = tries % 2 == 0 ? solver : "prioritized";
       const PlanReport report = planner.plan(answer_.ground->instance, request, deadline_);
@@ -123,7 +120,35 @@ class FleetRun {
       if (!breaks || answer_.rings == 0 || deadline_.expired()) break;
       ++request.seed;
     }
+    // Other plans may use all edges.
+    if (is_cut_) answer_.ground.reset();
     return std::nullopt;
+  }
+
+  /// Takes an edge out of the cycle of each ring of the last plan, where no robot can rotate then.
+  /// As the edge lies on a cycle, its ends stay connected.
+  void cutRings(std::uint32_t number) {
+    std::vector<Edge> removed;
+    for (const std::vector<Edge>& ring : rings_) {
+      removed.push_back(ring[(question_.budget.seed + number) % ring.size()]);
+    }
+    const std::vector<Vertex> goals = answer_.ground->instance.goals();
+    setGround(openPart(question_.grid, question_.blocked, removed), goals);
+    is_cut_ = true;
+  }
+
+  /// The edges along which robots of each ring rotate.
+  static std::vector<std::vector<Edge>> edgesOf(const ExecutionGraph& graph) {
+    const Precedence& order = graph.precedence();
+    std::vector<std::vector<Edge>> rings;
+    for (const Ring& ring : graph.rings()) {
+      rings.emplace_back();
+      for (const VisitId event : ring) {
+        const auto ends = std::minmax(order[event - 1].vertex, order[event].vertex);
+        rings.back().emplace_back(ends.first, ends.second);
+      }
+    }
+    return rings;
   }
 
   /// Of the robots that a refusal names one that is sent to a goal and may be sent elsewhere.
@@ -139,7 +164,8 @@ class FleetRun {
     if (breaksRings()) plan = breakRings(answer_.ground->instance, std::move(plan), {}, deadline_);
     trimToArrival(plan);
     ExecutionGraph joined = concatenate(question_.graph, question_.cut, plan);
-    const std::uint32_t rings = ringsOf(joined);
+    rings_ = edgesOf(joined);
+    const auto rings = static_cast<std::uint32_t>(rings_.size());
     if (answer_.execution && answer_.rings <= rings) return;
     answer_.message.clear();
     answer_.rings = rings;
@@ -162,6 +188,8 @@ class FleetRun {
   const Deadline& deadline_;
   std::vector<Vertex> starts_;
   FleetAnswer answer_;
+  std::vector<std::vector<Edge>> rings_;  // of the last plan
+  bool is_cut_ = false;                   // whether the ground lacks some of their edges
 };
 
 }  // namespace
@@ -174,13 +202,18 @@ FleetGround::FleetGround(std::shared_ptr<const Grid> open, const std::vector<Ver
       replanner(instance, times, budget) {}
 
 std::shared_ptr<const Grid> openPart(const std::shared_ptr<const Grid>& grid,
-                                     const std::vector<bool>& blocked) {
-  if (std::find(blocked.begin(), blocked.end(), true) == blocked.end()) return grid;
-  std::vector<std::pair<Vertex, Vertex>> edges;
+                                     const std::vector<bool>& blocked,
+                                     const std::vector<Edge>& removed) {
+  const bool is_whole = std::find(blocked.begin(), blocked.end(), true) == blocked.end();
+  if (is_whole && removed.empty()) return grid;
+  const auto is_removed = [&](Vertex v, Vertex next) {
+    return std::find(removed.begin(), removed.end(), Edge(v, next)) != removed.end();
+  };
+  std::vector<Edge> edges;
   for (Vertex v = 0; v < grid->size(); ++v) {
     if (blocked[v]) continue;
     for (const Vertex next : grid->graph().neighbours(v)) {
-      if (v < next && !blocked[next]) edges.emplace_back(v, next);
+      if (v < next && !blocked[next] && !is_removed(v, next)) edges.emplace_back(v, next);
     }
   }
   return std::make_shared<const Grid>(grid->width(), grid->height(), cellsOf(*grid), edges);

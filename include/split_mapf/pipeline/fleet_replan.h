@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "split_mapf/core/execution_cut.h"
@@ -69,8 +70,12 @@ struct FleetAnswer {
 FleetAnswer answerFleet(const FleetQuestion& question, const Planner& planner,
                         const PlanRequest& request, const Deadline& deadline);
 
-/// The grid without moves to blocked cells; its vertices keep their numbers.
+using Edge = std::pair<Vertex, Vertex>;  ///< the smaller one first
+
+/// The grid without moves to blocked cells and along the edges that are removed, if any; its
+/// vertices keep their numbers. Cost: O(edges), times those removed.
 std::shared_ptr<const Grid> openPart(const std::shared_ptr<const Grid>& grid,
-                                     const std::vector<bool>& blocked);
+                                     const std::vector<bool>& blocked,
+                                     const std::vector<Edge>& removed = {});
 
 }  // namespace split_mapf
