@@ -97,7 +97,8 @@ FleetQuestion FleetExecution::makeQuestion(bool anew) {
           times_,
           budget,
           avoid,
-          ground_};
+          ground_,
+          !anyMayMove()};
 }
 
 bool FleetExecution::isUrgent() const {

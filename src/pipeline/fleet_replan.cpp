@@ -1,12 +1,14 @@
 #include "split_mapf/pipeline/fleet_replan.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "pipeline/fleet_goals.h"
 #include "pipeline/mended_rest.h"
 #include "solver/search/ring_breaking.h"
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/validate.h"
 
 namespace split_mapf {
 namespace {
@@ -71,30 +73,50 @@ class FleetRun {
                                       takes_part, answer_.faults);
       answer_.faults = std::move(chosen.faults);
       setGround(open, chosen.goals);
-      if (tryToMend()) break;
+      if (tryToMend(open)) break;
       const std::optional<std::uint32_t> hopeless = tryToPlan(planner, request);
       if (!hopeless) break;
       answer_.faults[*hopeless] = GoalFault::kNoWay;
     }
+    // Other plans may use all edges.
+    if (is_cut_) answer_.ground.reset();
     return std::move(answer_);
   }
 
  private:
   /// Keeps what can be kept of the plan under execution. @return whether that gave a plan without
   /// rings; others are better planned as a whole.
-  bool tryToMend() {
-    const Instance& instance = answer_.ground->instance;
+  bool tryToMend(const std::shared_ptr<const Grid>& open) {
     const Precedence order = restBehind(question_.graph, question_.cut);
     Plan rest = planOf(order, earliestSteps(order));
     trimToArrival(rest);
-    const std::vector<std::uint32_t> diverted = findDiverted(instance, rest, question_.blocked);
-    // Nobody has to go elsewhere, and still they do not get on.
-    if (diverted.empty()) return false;
+    for (std::uint32_t tries = 0; tries < kTriesAtRings && mendOnce(rest); ++tries) {
+      if (!breaksRings() || rings_.empty()) return true;
+      cutRings(tries);
+    }
+    if (!is_cut_) return false;
+    setGround(open, answer_.ground->instance.goals());
+    rings_.clear();
+    is_cut_ = false;
+    return false;
+  }
+
+  /// @param rest  becomes a valid plan on the ground as it is. @return whether it could.
+  bool mendOnce(Plan& rest) {
+    const Instance& instance = answer_.ground->instance;
+    const std::vector<std::uint32_t> diverted = findDiverted(instance, rest);
+    if (diverted.empty()) {
+      // Nobody has to go elsewhere; but if nobody gets on either, the plan is not good.
+      rest = keepBest(std::move(rest));
+      const bool is_good = rings_.empty() || !breaksRings();
+      if (question_.stalled && is_good) answer_.execution.reset();
+      return answer_.execution.has_value();
+    }
     std::optional<Plan> mended =
         mendRest(instance, std::move(rest), diverted, question_.budget.seed, deadline_);
     if (!mended) return false;
-    keepBest(*std::move(mended));
-    return !breaksRings() || answer_.rings == 0;
+    rest = keepBest(*std::move(mended));
+    return true;
   }
 
   /// Whether a ring would never begin.
@@ -120,8 +142,6 @@ class FleetRun {
       if (!breaks || answer_.rings == 0 || deadline_.expired()) break;
       ++request.seed;
     }
-    // Other plans may use all edges.
-    if (is_cut_) answer_.ground.reset();
     return std::nullopt;
   }
 
@@ -160,16 +180,25 @@ class FleetRun {
     return std::nullopt;
   }
 
-  void keepBest(Plan plan) {
+  void requireValid(const Plan& plan) const {
+    const std::vector<Violation> violations = validate(answer_.ground->instance, plan);
+    if (violations.empty()) return;
+    throw std::logic_error("a fleet's plan is not valid: " + violations.front().message);
+  }
+
+  /// @return the plan, with fewer rings.
+  Plan keepBest(Plan plan) {
     if (breaksRings()) plan = breakRings(answer_.ground->instance, std::move(plan), {}, deadline_);
     trimToArrival(plan);
+    requireValid(plan);
     ExecutionGraph joined = concatenate(question_.graph, question_.cut, plan);
     rings_ = edgesOf(joined);
     const auto rings = static_cast<std::uint32_t>(rings_.size());
-    if (answer_.execution && answer_.rings <= rings) return;
+    if (answer_.execution && answer_.rings <= rings) return plan;
     answer_.message.clear();
     answer_.rings = rings;
     answer_.execution = std::move(joined);
+    return plan;
   }
 
   /// Keeps the ground as long as cells and goals are the same.

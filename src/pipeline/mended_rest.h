@@ -10,11 +10,10 @@
 
 namespace split_mapf {
 
-/// Robots that cannot go on as planned: they are wanted elsewhere, or their way is closed.
-/// @param rest  by robot, from its start on; of robots beyond its size nothing was planned.
-/// @param blocked  by vertex; not where robots begin that may leave.
-std::vector<std::uint32_t> findDiverted(const Instance& instance, const Plan& rest,
-                                        const std::vector<bool>& blocked);
+/// Robots that cannot go on as planned: they are wanted elsewhere, or the instance lacks an edge of
+/// their way. @param rest  by robot, from its start on; of robots beyond its size nothing was
+/// planned.
+std::vector<std::uint32_t> findDiverted(const Instance& instance, const Plan& rest);
 
 /// Gives some robots of a plan other ways and leaves the others theirs, but for those that have to
 /// make room: where new ways collide, groups of robots are planned anew until nobody does. So a

@@ -37,7 +37,7 @@ struct Scene {
 TEST(MendedRest, LeavesOthersTheirWays) {
   const Scene scene({"....", "....", "...."}, {{{0, 1, 2, 3}, {8, 9, 10, 11}}}, {2});
   const Instance instance = scene.instance();
-  const std::vector<std::uint32_t> diverted = findDiverted(instance, scene.plan, scene.blocked);
+  const std::vector<std::uint32_t> diverted = findDiverted(instance, scene.plan);
   ASSERT_EQ(diverted, std::vector<std::uint32_t>{0});
   const std::optional<Plan> mended = mendRest(instance, scene.plan, diverted, 0, {});
   ASSERT_TRUE(mended);
@@ -84,7 +84,7 @@ TEST(MendedRest, IsValidWheneverItIsFound) {
         chooseGoals(*open, blocked, starts, wanted, std::vector<bool>(8, true),
                     std::vector<GoalFault>(8, GoalFault::kNone));
     const Instance instance = Instance::fromVertices(open, starts, chosen.goals);
-    const std::vector<std::uint32_t> diverted = findDiverted(instance, plan, blocked);
+    const std::vector<std::uint32_t> diverted = findDiverted(instance, plan);
     const std::optional<Plan> mended = mendRest(instance, plan, diverted, seed, {});
     if (!mended) continue;
     ++found;

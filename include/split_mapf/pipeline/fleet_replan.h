@@ -50,6 +50,7 @@ struct FleetQuestion {
   ReplanBudget budget;
   bool avoid_rings = true;
   std::shared_ptr<FleetGround> ground;  ///< of the last answer; null: none yet
+  bool stalled = false;                 ///< nobody has leave to go on
 };
 
 struct FleetAnswer {
