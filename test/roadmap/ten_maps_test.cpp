@@ -105,6 +105,8 @@ TEST(TenMaps, AreServedForRobotsOfEverySize) {
   if (!maps) GTEST_SKIP() << test::benchmarkMissing("map_server/willow/map.yaml");
   for (const Aim& aim :
        {Aim{0.15, 0.995, 0}, Aim{0.25, 0.99, 0}, Aim{0.35, 0.97, 0}, Aim{0.5, 0.94, 6}}) {
+    // The smallest make the largest graphs, and are the easiest to serve.
+    if (aim.radius_m < 0.2 && !test::isLongRun()) continue;
     RoadmapOptions options;
     options.robot_radius_m = aim.radius_m;
     const Served served = serve(*maps, options);

@@ -205,33 +205,28 @@ class PlanClient(unittest.TestCase):
         return places
 
     def test_plans_for_robots_that_have_size(self):
-        robots = ["{id: a, start: [1.5, 3.0, 0], goal: [3.5, 4.4, 1]%s}",
-                  "{id: b, start: [3.5, 3.7, 0], goal: [1.4, 3.6, 0]}"]
-        room, poses = self.write_room([robots[0] % "", robots[1]])
+        room, poses = self.write_room(["{id: a, start: [1.5, 3.0, 0], goal: [3.5, 4.4, 1]}",
+                                       "{id: b, start: [3.5, 3.7, 0], goal: [1.4, 3.6, 0]}"])
+        files = ("--map", room, "--scen", poses)
         # The poses were taken to centres of cells, and nobody was told.
-        code, output = self.run_client("--map", room, "--scen", poses)
+        code, output = self.run_client(*files)
         self.assertEqual(code, 1, output)
         self.assertIn("poses.yaml: robots at poses need a size", output)
-        options = ("--map", room, "--unknown-space", "free", "--robot-speed", "0.5",
-                   "--output", self.plan)
-        for radius, more in ((", radius: 0.3", ("--robot-radius", "0.2")),
-                             ("", ("--clearance", "0.2", "--passages", "false"))):
-            self.write_room([robots[0] % radius, robots[1]])
-            code, output = self.run_client(*options, "--scen", poses, *more)
-            self.assertEqual(code, 0, output)
-            with open(self.plan, encoding="ascii") as file:
-                plan = json.load(file)
-            self.assertEqual(plan["grid"]["width"], 80)
-            for found, wanted in zip(plan["grid"]["origin"], (1, 2, 0.5)):
-                self.assertAlmostEqual(found, wanted)
-            self.assertAlmostEqual(plan["step_duration"], plan["longest_step"] / 0.5)
-            self.assertEqual((plan["poses"][0][0], plan["poses"][0][-1]), ([1.5, 3.0], [3.5, 4.4]))
-            checked = start_program("split_mapf", "validate", "--map", room, "--scen", poses,
-                                    "--plan", self.plan, "--unknown-space", "free")
-            self.addCleanup(checked.end)
-            self.assertEqual(checked.wait(), 0, checked.output())
-        code, output = self.run_client("--map", room, "--scen", self.scen, "--passages", "maybe")
-        self.assertEqual(code, 1, output)
+        code, output = self.run_client(*files, "--clearance", "0.2", "--passages", "false",
+                                       "--unknown-space", "free", "--robot-speed", "0.5",
+                                       "--output", self.plan)
+        self.assertEqual(code, 0, output)
+        with open(self.plan, encoding="ascii") as file:
+            plan = json.load(file)
+        self.assertEqual(plan["grid"]["width"], 80)
+        for found, wanted in zip(plan["grid"]["origin"], (1, 2, 0.5)):
+            self.assertAlmostEqual(found, wanted)
+        self.assertAlmostEqual(plan["step_duration"], plan["longest_step"] / 0.5)
+        self.assertEqual((plan["poses"][0][0], plan["poses"][0][-1]), ([1.5, 3.0], [3.5, 4.4]))
+        checked = start_program("split_mapf", "validate", *files, "--plan", self.plan,
+                                "--unknown-space", "free")
+        self.addCleanup(checked.end)
+        self.assertEqual(checked.wait(), 0, checked.output())
 
     def test_refuses_a_resolution_that_would_have_no_effect(self):
         code, output = self.run_client("--scen", self.scen, "--resolution", "0.5")
