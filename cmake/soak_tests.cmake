@@ -19,6 +19,7 @@ if(TARGET pipeline_tests)
   split_mapf_add_soak(reservations pipeline_tests --gtest_filter=Reservations.AreKeptByEvery*)
   split_mapf_add_soak(fleet pipeline_tests --gtest_filter=FleetRuns.*)
   split_mapf_add_soak(fleet_crowd pipeline_tests --gtest_filter=FleetCrowd.*)
+  split_mapf_add_soak(vda5050 pipeline_tests --gtest_filter=Vda5050Fleet.*)
 endif()
 # Without ilp: a few of so many instances keep it busy for minutes.
 if(TARGET conformance_tests)

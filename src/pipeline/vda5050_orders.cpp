@@ -55,7 +55,10 @@ Vda5050Order firstOrder(const PlacedRoute& route, const Vda5050Options& options)
 std::optional<Vda5050Vehicle::Message> Vda5050Vehicle::due(double now, double unix_sec) {
   if (isSilent(now) || route_.visits.empty()) return std::nullopt;
   if (isBusyElsewhere()) {
-    return isOurs() ? sendCancel(now, unix_sec) : std::nullopt;
+    if (!isOurs()) return std::nullopt;
+    // One that it was sent meanwhile it has refused; it may be elsewhere when it has stopped.
+    if (order_) forgetOrder();
+    return sendCancel(now, unix_sec);
   }
   if (drops_) return isAcknowledged() ? sendCancel(now, unix_sec) : std::nullopt;
   cancelled_at_.reset();
@@ -109,6 +112,17 @@ std::optional<std::size_t> Vda5050Vehicle::whereToBegin() const {
   return at_plan_ == route_.plan_id ? indexOf(at_) : 0;
 }
 
+/// It stands between two nodes, and would refuse an order that begins elsewhere.
+void Vda5050Vehicle::beginUnderWay(Vda5050Order& order, std::size_t from) const {
+  const PlacedVisit& left = route_.visits[from];
+  const PlacedVisit& next = route_.visits[from + 1];
+  const bool is_known = state_->position && state_->position->map_id == options_.map_id;
+  order.nodes[0].x_m =
+      is_known ? state_->position->x_m : left.x_m + fraction_ * (next.x_m - left.x_m);
+  order.nodes[0].y_m =
+      is_known ? state_->position->y_m : left.y_m + fraction_ * (next.y_m - left.y_m);
+}
+
 /// An order that lets the robot do nothing is not made.
 bool Vda5050Vehicle::makeOrder() {
   const std::optional<std::size_t> from = whereToBegin();
@@ -119,11 +133,7 @@ bool Vda5050Vehicle::makeOrder() {
   order.order_id = idOf(route_.plan_id, next_number_++);
   append(order, route_, *from, end);
   order.nodes[0].released = true;
-  if (fraction_ > 0 && at_plan_ == route_.plan_id && state_->position) {
-    // It stands between two nodes, and would refuse an order that begins elsewhere.
-    order.nodes[0].x_m = state_->position->x_m;
-    order.nodes[0].y_m = state_->position->y_m;
-  }
+  if (fraction_ > 0 && at_plan_ == route_.plan_id) beginUnderWay(order, *from);
   base_begin_ = route_.visits[*from];
   base_end_ = route_.visits[end - 1];
   base_end_id_ = 2 * static_cast<std::uint32_t>(end - 1 - *from);

@@ -35,9 +35,20 @@ void Vda5050Vehicle::take(PlacedRoute route) {
 void Vda5050Vehicle::take(Vda5050State state, double now) {
   state_ = std::move(state);
   heard_ = now;
+  if (order_ && isAcknowledged() && !isAsSent()) forgetOrder();
   locate();
   adopt();
   judge(now);
+}
+
+/// Whether a state that shows the order shows the base that was sent. Another process may have sent
+/// an update under the same number before.
+bool Vda5050Vehicle::isAsSent() const {
+  const std::string end = idOf(route_.plan_id, base_end_.sequence);
+  if (state_->update_id > order_->update_id) return false;
+  return isIdle() || state_->last_node_id == end ||
+         std::any_of(state_->nodes.begin(), state_->nodes.end(),
+                     [&](const Vda5050NodeState& node) { return node.released && node.id == end; });
 }
 
 std::optional<std::size_t> Vda5050Vehicle::indexOf(std::uint32_t sequence) const {
@@ -187,6 +198,12 @@ std::optional<VehicleProgress> Vda5050Vehicle::progress(double now) const {
   progress.plan_id = at_plan_;
   progress.sequence = at_;
   progress.fraction = fraction_;
+  if (at_plan_ != route_.plan_id && !route_.visits.empty() && isIdle()) {
+    // It stands where its route begins; its need has to be told though it has no order yet.
+    progress.plan_id = route_.plan_id;
+    progress.sequence = route_.visits.front().sequence;
+    progress.fraction = 0;
+  }
   progress.status = driveStatus();
   if (state_->position && state_->position->map_id == options_.map_id) {
     progress.position = state_->position;

@@ -107,7 +107,11 @@ TEST_F(VehicleTest, ARobotThatMayNotMoveIsSentNothing) {
   vehicle_.take(standing(""), 0);
   vehicle_.take(route("p", {0, 1, 2}, 0));
   EXPECT_EQ(sent(0), "");
-  EXPECT_EQ(vehicle_.progress(0)->plan_id, "");
+  // It stands where its route begins, and may be in need there.
+  EXPECT_EQ(vehicle_.progress(0)->plan_id, "p");
+  vehicle_.take(withError(standing(""), Vda5050ErrorLevel::kFatal), 1);
+  EXPECT_EQ(status(1), DriveStatus::kFault);
+  EXPECT_EQ(vehicle_.progress(1)->plan_id, "p");
 }
 
 TEST_F(VehicleTest, TellsHowFarItHasComeFromItsPlaceOrItsWay) {
@@ -267,6 +271,36 @@ TEST_F(VehicleTest, TakesOverOnlyWhatIsOnTheRoute) {
   EXPECT_EQ(sent(0), "cancel");
   vehicle_.take(standing("p/1", "p/4", 7), 1);
   EXPECT_EQ(sent(1), "order p/5 0: p/1#0 p/17#2");
+}
+
+TEST_F(VehicleTest, AnUpdateOfAnotherProcessIsNotTakenForItsOwnUnderTheSameNumber) {
+  const Vda5050State old =
+      withAhead(standing("p/0", "p/0", 0), {{"p/1", 2, true}, {"p/2", 4, false}});
+  vehicle_.take(old, 0);
+  vehicle_.take(route("p", {0, 1, 2, 3}, 3));
+  EXPECT_EQ(sent(0), "order p/0 1: p/1#2 p/2#4 p/3#6");
+  // What came first was an update that the process before had sent.
+  vehicle_.take(
+      withAhead(standing("p/0", "p/0", 1), {{"p/1", 2, true}, {"p/2", 4, true}, {"p/3", 6, false}}),
+      1);
+  EXPECT_EQ(sent(1), "order p/0 2: p/2#4 p/3#6");
+}
+
+TEST_F(VehicleTest, AnOrderThatWasRefusedIsMadeAnewWhereTheRobotStands) {
+  vehicle_.take(standing("p/0", "p/0", 0), 0);
+  vehicle_.take(route("p", {0, 1, 2}, 2));
+  EXPECT_EQ(sent(0), "order p/1 0: p/0#0 p/1#2 p/2#4");
+  // The process before had sent an update that came first.
+  Vda5050State busy = withAhead(standing("p/0", "p/0", 1), {{"p/1", 2, true}});
+  vehicle_.take(busy, 1);
+  EXPECT_EQ(sent(1), "cancel");
+  busy.nodes.clear();
+  busy.since_last_node_m = 0.6;
+  vehicle_.take(busy, 2);
+  const auto message = vehicle_.due(2, 0);
+  ASSERT_TRUE(message);
+  EXPECT_EQ(summaryOf(message->text), "p/2 0: p/0#0 p/1#2 p/2#4");
+  EXPECT_NE(message->text.find("\"x\":0.6"), std::string::npos);
 }
 
 TEST_F(VehicleTest, LeavesOrdersOfOthersAlone) {

@@ -91,6 +91,7 @@ class Vda5050Vehicle {
   bool isBusyElsewhere() const;
   bool isOurs() const;
   bool isAcknowledged() const;
+  bool isAsSent() const;
   bool hasError(Vda5050ErrorLevel level) const;
   bool isInNeed() const;
   DriveStatus driveStatus() const;
@@ -108,6 +109,7 @@ class Vda5050Vehicle {
   std::optional<std::size_t> whereToBegin() const;
   bool makeUpdate();
   bool makeOrder();
+  void beginUnderWay(Vda5050Order& order, std::size_t from) const;
   Message sendOrder(double now, double unix_sec);
   std::optional<Message> sendCancel(double now, double unix_sec);
 
