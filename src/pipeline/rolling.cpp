@@ -77,6 +77,8 @@ class Rolling::Run {
   }
 
   std::uint64_t improve(std::uint64_t expansions, const Deadline& deadline) {
+    for (const Vertex goal : wanted_) slopes_.find(goal);
+    wanted_.clear();
     const std::uint64_t done = improver_.improve(expansions, deadline);
     expansions_ += done;
     return done;
@@ -116,6 +118,7 @@ class Rolling::Run {
     held_.clear();
     cut_off_.clear();
     stuck_.clear();
+    wanted_.clear();
     window_.itineraries.assign(question.robots.size(), Itinerary());
     for (std::uint32_t robot = 0; robot < question.robots.size(); ++robot) {
       const RollingRobot& asked = question.robots[robot];
@@ -140,12 +143,16 @@ class Rolling::Run {
     stuck_.push_back({robot, stuck, &slope, progress_.best(asked.id)});
   }
 
-  /// As many as can be met within the window.
+  /// As many as can be met within the window, and are at hand.
   void addGoals(const RollingRobot& asked, std::uint32_t robot, Itinerary& itinerary) {
     Vertex from = asked.prefix.front();
     std::uint32_t left = window_.steps;
     for (const Vertex goal : asked.goals) {
       if (itinerary.count == kMostGoals) return;
+      if (itinerary.count > 0 && !slopes_.has(goal)) {
+        wanted_.push_back(goal);  // there is time for it once a window is there
+        return;
+      }
       std::shared_ptr<const Slope> slope = slopes_.find(goal);
       if (!slope->reachable(from)) {
         if (itinerary.count == 0) cut_off_.push_back(robot);
@@ -161,7 +168,7 @@ class Rolling::Run {
   }
 
   void addEscorts(const RollingQuestion& question) {
-    escorts_.add(*grid_, graph_, question, closed_, stuck_, now_, options_.window);
+    escorts_.add(*grid_, graph_, question, closed_, stuck_, now_, patience_ * options_.window);
     std::vector<bool> barred = closed_;
     escorts_.bar(barred);
     if (barred == barred_) return;
@@ -212,6 +219,7 @@ class Rolling::Run {
   FleetWindow window_;
   std::vector<std::shared_ptr<const Slope>> held_;  // that the itineraries point to
   std::vector<std::shared_ptr<const Slope>> held_before_;
+  std::vector<Vertex> wanted_;        // goals whose slopes the next window should have
   std::vector<std::uint32_t> order_;  // the most important robot first
   std::vector<std::uint32_t> cut_off_;
   Progress progress_;

@@ -10,18 +10,14 @@
 namespace split_mapf::rolling {
 namespace {
 
-// Of the region, the first time [steps around the leader]; then twice as many, and so on.
-constexpr std::uint32_t kFirstRadius = 4;
 constexpr std::uint64_t kEscortExpansions = 400000;
 
 /// One region, tried.
 class EscortTry {
  public:
-  EscortTry(const EscortQuestion& question, std::uint32_t radius) : question_(question) {
-    findRegion(radius);
+  explicit EscortTry(const EscortQuestion& question) : question_(question) {
+    findRegion(question.radius);
   }
-
-  std::size_t size() const { return region_.size(); }
 
   std::optional<Escort> run() {
     if (!findMembers()) return std::nullopt;
@@ -154,14 +150,7 @@ class EscortTry {
 }  // namespace
 
 std::optional<Escort> findEscort(const EscortQuestion& question) {
-  std::size_t size = 0;
-  for (std::uint32_t radius = kFirstRadius;; radius *= 2) {
-    EscortTry attempt(question, radius);
-    if (attempt.size() == size) return std::nullopt;  // that was all there is
-    size = attempt.size();
-    std::optional<Escort> escort = attempt.run();
-    if (escort) return escort;
-  }
+  return EscortTry(question).run();
 }
 
 }  // namespace split_mapf::rolling

@@ -62,11 +62,13 @@ void Escorts::add(const Grid& grid, const MoveGraph& graph, const RollingQuestio
   for (const StuckRobot& robot : stuck) {
     if (searches == kMostSearches || led * kLeastShare > graph.size()) return;
     const std::uint32_t id = fleet.robots[robot.index].id;
-    std::uint64_t& next_try = next_try_[id];
+    NextTry& next_try = next_try_[id];
+    // One that has gained since begins anew.
+    if (next_try.step + robot.steps < now + patience) next_try = NextTry();
     std::vector<bool> barred = closed;
     bar(barred);
     // Who is in a region already, or has just been looked at, waits.
-    if (now < next_try || barred[fleet.robots[robot.index].prefix.back()]) continue;
+    if (now < next_try.step || barred[fleet.robots[robot.index].prefix.back()]) continue;
     EscortQuestion question;
     question.grid = &grid;
     question.graph = &graph;
@@ -75,13 +77,16 @@ void Escorts::add(const Grid& grid, const MoveGraph& graph, const RollingQuestio
     question.leader = robot.index;
     question.slope = robot.slope;
     question.best = robot.best;
+    question.radius = next_try.radius;
     ++searches;
     std::optional<Escort> escort = findEscort(question);
     if (escort) {
       led += escort->region.size();
       escorts_.push_back(std::move(*escort));
+      next_try = NextTry();
     } else {
-      next_try = now + patience;
+      next_try.step = now + patience;
+      next_try.radius = std::min(2 * next_try.radius, graph.size());
     }
   }
 }

@@ -6,7 +6,10 @@
 namespace split_mapf::rolling {
 namespace {
 
-constexpr std::uint32_t kUnknown = 0xffffffffU;
+// Levels are distances without their higher bits: neighbours differ by one at most. A byte each
+// leaves them in the nearest cache.
+constexpr std::uint8_t kUnknown = 0xffU;
+constexpr std::uint32_t kLevelMask = 0x7fU;
 
 }  // namespace
 
@@ -23,6 +26,7 @@ std::uint32_t Slope::distance(const MoveGraph& graph, Vertex from, std::uint32_t
 bool SlopeCache::close(const std::vector<bool>& closed) {
   if (closed == closed_) return false;
   closed_ = closed;
+  any_closed_ = std::find(closed.begin(), closed.end(), true) != closed.end();
   entries_.clear();
   return true;
 }
@@ -55,35 +59,59 @@ void SlopeCache::makeRoom() {
 
 std::vector<std::uint8_t> SlopeCache::search(Vertex goal) {
   ++searches_;
-  distances_.assign(graph_.size(), kUnknown);
-  queue_.resize(std::size_t{graph_.size()} + 4);
-  std::size_t tail = 0;
-  queue_[tail++] = goal;
-  distances_[goal] = 0;
-  for (std::size_t head = 0; head < tail; ++head) {
-    const Vertex v = queue_[head];
-    if (closed_[v] && v != goal) continue;
-    const std::uint32_t next = distances_[v] + 1;
-    for (const Vertex u : graph_[v].next) {
-      queue_[tail] = u;
-      tail += distances_[u] == kUnknown ? 1 : 0;
-      distances_[u] = std::min(distances_[u], next);
-    }
-  }
+  findLevels(goal);
   std::vector<std::uint8_t> slope(graph_.size());
   for (Vertex v = 0; v < graph_.size(); ++v) {
     const MoveGraph::Node& node = graph_[v];
-    const std::uint32_t own = distances_[v];
-    std::uint32_t bits = own == kUnknown ? Slope::kCutOff : 0;
-    for (std::uint32_t slot = 0; own != kUnknown && slot < kSlots; ++slot) {
-      const Vertex u = node.next[slot];
-      if (u == v || (closed_[u] && u != goal)) continue;
-      bits |= distances_[u] < own ? 1U << slot : 0U;
-      bits |= distances_[u] == own ? 16U << slot : 0U;
+    const std::uint32_t own = levels_[v];
+    if (own == kUnknown) {
+      slope[v] = Slope::kCutOff;
+      continue;
     }
-    slope[v] = static_cast<std::uint8_t>(bits);
+    std::uint32_t nearer = 0;
+    std::uint32_t same = 0;
+    for (std::uint32_t slot = 0; slot < kSlots; ++slot) {
+      const Vertex u = node.next[slot];
+      const std::uint32_t farther = (levels_[u] - own) & kLevelMask;
+      nearer |= (farther == kLevelMask ? 1U : 0U) << slot;
+      same |= (farther == 0 && u != v ? 1U : 0U) << slot;
+    }
+    slope[v] = static_cast<std::uint8_t>(nearer | same << kSlots);
   }
+  if (any_closed_) leadAround(goal, slope);
   return slope;
+}
+
+void SlopeCache::findLevels(Vertex goal) {
+  levels_.assign(graph_.size(), kUnknown);
+  queue_.resize(std::size_t{graph_.size()} + kSlots);
+  std::size_t tail = 0;
+  queue_[tail++] = goal;
+  levels_[goal] = 0;
+  for (std::size_t head = 0; head < tail; ++head) {
+    const Vertex v = queue_[head];
+    if (closed_[v] && v != goal) continue;
+    const auto next = static_cast<std::uint8_t>((levels_[v] + 1U) & kLevelMask);
+    // Whether a neighbour is new cannot be predicted, so all are written behind the queue's end.
+    for (const Vertex u : graph_[v].next) {
+      const bool is_new = levels_[u] == kUnknown;
+      queue_[tail] = u;
+      tail += is_new ? 1 : 0;
+      levels_[u] = is_new ? next : levels_[u];
+    }
+  }
+}
+
+void SlopeCache::leadAround(Vertex goal, std::vector<std::uint8_t>& slope) const {
+  for (Vertex u = 0; u < graph_.size(); ++u) {
+    if (!closed_[u] || u == goal) continue;
+    const MoveGraph::Node& node = graph_[u];
+    for (Slot slot = 0; slot < node.degree; ++slot) {
+      const Vertex v = node.next[slot];
+      if (slope[v] == Slope::kCutOff) continue;
+      slope[v] &= static_cast<std::uint8_t>(~(0x11U << node.back[slot]));
+    }
+  }
 }
 
 }  // namespace split_mapf::rolling

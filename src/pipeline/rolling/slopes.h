@@ -42,6 +42,7 @@ class SlopeCache {
   /// @return whether that was so.
   bool close(const std::vector<bool>& closed);
   std::shared_ptr<const Slope> find(Vertex goal);
+  bool has(Vertex goal) const { return entries_.count(goal) > 0; }
   std::uint64_t searches() const { return searches_; }
   std::size_t bytes() const { return entries_.size() * graph_.size(); }
 
@@ -51,15 +52,18 @@ class SlopeCache {
     std::uint64_t used = 0;  // when it was asked for last
   };
   std::vector<std::uint8_t> search(Vertex goal);
+  void findLevels(Vertex goal);
+  void leadAround(Vertex goal, std::vector<std::uint8_t>& slope) const;
   void makeRoom();
 
   const MoveGraph& graph_;
   std::size_t most_bytes_;
   std::vector<bool> closed_;
+  bool any_closed_ = false;
   std::unordered_map<Vertex, Entry> entries_;
   std::uint64_t uses_ = 0;
   std::uint64_t searches_ = 0;
-  std::vector<std::uint32_t> distances_;  // of the search
+  std::vector<std::uint8_t> levels_;  // of the search
   std::vector<Vertex> queue_;
 };
 
