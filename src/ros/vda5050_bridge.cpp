@@ -95,7 +95,7 @@ Vda5050BridgeOptions readVda5050BridgeOptions(const XmlRpc::XmlRpcValue& paramet
   return options;
 }
 
-Vda5050Bridge::Vda5050Bridge(ros::NodeHandle node, ros::NodeHandle private_node,
+Vda5050Bridge::Vda5050Bridge(ros::NodeHandle node, const ros::NodeHandle& private_node,
                              const Vda5050BridgeOptions& options, Send send)
     : options_(options),
       send_(std::move(send)),

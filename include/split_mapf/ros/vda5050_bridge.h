@@ -45,7 +45,7 @@ class Vda5050Bridge {
   /// Sends a text on a topic; false: it was not sent.
   using Send = std::function<bool(const std::string& topic, const std::string& text)>;
 
-  Vda5050Bridge(ros::NodeHandle node, ros::NodeHandle private_node,
+  Vda5050Bridge(ros::NodeHandle node, const ros::NodeHandle& private_node,
                 const Vda5050BridgeOptions& options, Send send);
 
   /// What has to be subscribed whenever a connection has been made.
