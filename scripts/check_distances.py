@@ -2,45 +2,50 @@
 """Checks in a bag that no two robots ever came too close: reads the poses in RobotProgress messages.
 
 Robots may report at moments of their own: between two of its poses each is taken to go straight, and
-after its last one to stand. Positions are compared at moments that are --period apart at least, and
+after its last one to stand. Where a robot is that drives is not known while poses are missing. Positions are compared at moments that are --period apart at least, and
 between these the least distance is that of continuous time, but for corners cut within a period.
 
 exit codes: 0 they kept apart, 1 bad usage or nothing to compare, 2 some came too close
 """
 
 import argparse
-import collections
+import array
 import math
 import sys
 
 import rosbag
 
-# Seconds by which stamps in a bag may be out of order.
-LAG = 1.0
-
 
 class Track:
-    """The last poses of a robot."""
+    """The poses of a robot in order of their stamps, which are those of one that drives on."""
 
     def __init__(self):
-        self.poses = collections.deque()
+        self.stamps, self.xs, self.ys = array.array("d"), array.array("d"), array.array("d")
+        self.next = 0  # the first pose after the moment asked for last
 
     def add(self, stamp, x, y):
-        if not self.poses or stamp > self.poses[-1][0]:
-            self.poses.append((stamp, x, y))
+        if self.stamps and stamp <= self.stamps[-1]:
+            return
+        self.stamps.append(stamp)
+        self.xs.append(x)
+        self.ys.append(y)
 
-    def at(self, stamp):
-        """The place at a moment; none before the first pose. Moments come in order."""
-        while len(self.poses) > 1 and self.poses[1][0] <= stamp:
-            self.poses.popleft()
-        first = self.poses[0]
-        if stamp < first[0]:
+    def at(self, moment, gap):
+        """The place at a moment; none where that is not known. Moments come in order."""
+        while self.next < len(self.stamps) and self.stamps[self.next] <= moment:
+            self.next += 1
+        if self.next == 0:
             return None
-        if len(self.poses) == 1 or stamp == first[0]:
-            return first[1:]
-        second = self.poses[1]
-        part = (stamp - first[0]) / (second[0] - first[0])
-        return (first[1] + part * (second[1] - first[1]), first[2] + part * (second[2] - first[2]))
+        last = self.next - 1
+        x, y = self.xs[last], self.ys[last]
+        if self.next == len(self.stamps) or self.stamps[last] == moment:
+            return (x, y)
+        duration = self.stamps[self.next] - self.stamps[last]
+        dx, dy = self.xs[self.next] - x, self.ys[self.next] - y
+        if duration > gap and (dx or dy):
+            return None
+        part = (moment - self.stamps[last]) / duration
+        return (x + part * dx, y + part * dy)
 
 
 def poses_of(bag, topic):
@@ -59,26 +64,20 @@ def poses_of(bag, topic):
         yield header.stamp.to_sec(), message.robot_id, at.x, at.y
 
 
-def moments_of(poses, period):
-    """The places of all robots at moments in order, which are stamps of poses."""
+def moments_of(poses, period, gap):
+    """The places of all robots that are known, at moments in order, which are stamps of poses."""
     tracks = {}
-    waiting = collections.deque()
-    latest = -math.inf
-
-    def take():
-        moment = waiting.popleft()
-        places = ((robot, track.at(moment)) for robot, track in tracks.items())
-        return {robot: place for robot, place in places if place}
-
+    stamps = set()
     for stamp, robot, x, y in poses:
         tracks.setdefault(robot, Track()).add(stamp, x, y)
-        if stamp >= latest + period:
-            waiting.append(stamp)
-            latest = stamp
-        while waiting and waiting[0] + LAG <= latest:
-            yield take()
-    while waiting:
-        yield take()
+        stamps.add(stamp)
+    latest = -math.inf
+    for moment in sorted(stamps):
+        if moment < latest + period:
+            continue
+        latest = moment
+        places = ((robot, track.at(moment, gap)) for robot, track in tracks.items())
+        yield {robot: place for robot, place in places if place}
 
 
 def least_on_the_way(first, second, then_first, then_second):
@@ -99,6 +98,7 @@ class Closest:
         self.reach = reach
         self.least, self.who = math.inf, None
         self.moments = 0
+        self.places = 0
         self.robots = set()
 
     def take(self, now, then):
@@ -106,6 +106,7 @@ class Closest:
         if len(here) < 2:
             return
         self.moments += 1
+        self.places += len(here)
         self.robots.update(here)
         squares = {}
         for robot, (x, y) in here.items():
@@ -134,6 +135,9 @@ def main():
                         help="[m] robots farther apart are not compared (4)")
     parser.add_argument("--period", type=float, default=0.05,
                         help="[s] between moments at least (0.05)")
+    parser.add_argument("--gap", type=float, default=0.5,
+                        help="[s] without a pose, as a bag may lack some, after which it is not "
+                        "known where a robot is that drives (0.5)")
     parser.add_argument("--topic", default="/progress")
     args = parser.parse_args()
     if not 0 < args.distance <= args.reach or args.period <= 0:
@@ -142,7 +146,7 @@ def main():
     before = None
     try:
         with rosbag.Bag(args.bag) as bag:
-            for now in moments_of(poses_of(bag, args.topic), args.period):
+            for now in moments_of(poses_of(bag, args.topic), args.period, args.gap):
                 if before is not None:
                     closest.take(before, now)
                 before = now
@@ -153,8 +157,9 @@ def main():
                     "compare\n" % args.topic)
     text = "%.3f m (%s and %s)" % ((closest.least,) + closest.who) if closest.who else (
         "more than %g m" % args.reach)
-    print("%d robots, %d moments: the least distance is %s" % (
-        len(closest.robots), closest.moments + 1, text))
+    known = 100 * closest.places / (closest.moments * len(closest.robots))
+    print("%d robots, %d moments, %.0f %% of the places known: the least distance is %s" % (
+        len(closest.robots), closest.moments + 1, known, text))
     return 0 if closest.least >= args.distance else 2
 
 

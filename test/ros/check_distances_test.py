@@ -58,6 +58,12 @@ class CheckDistances(unittest.TestCase):
         poses += [(10 + 0.1 * i, "b", i, 0.2) for i in range(11)]
         self.assertEqual(self.check(poses)[0], 2)
 
+    def test_does_not_guess_the_way_where_poses_are_missing(self):
+        # Straight on they would meet; the bag lacks how one went round the other.
+        poses = [(10 + 0.1 * i, "a", 5, 0) for i in range(41)]
+        poses += [(10, "b", 0, 0), (10.1, "b", 0, 0), (14, "b", 10, 0)]
+        self.assertEqual(self.check(poses)[0], 0)
+
     def test_is_content_with_robots_that_keep_apart(self):
         poses = [(10 + 0.1 * i, robot, i, y) for i in range(11) for robot, y in (("a", 0), ("b", 1))]
         code, said = self.check(poses)
