@@ -83,7 +83,7 @@ class Fleet(FleetCase):
         fleet = self.start_fleet()
         self.start_robots()
         # The node hears of their places before it knows any map.
-        self.assertTrue(wait_until(lambda: len(self.progress.messages) > 2 * ROBOTS))
+        self.assertTrue(wait_until(lambda: len(self.progress.messages) > 2 * self.ROBOTS))
         wrong = MultiRobotPlan()
         wrong.header, wrong.grid, wrong.step_duration = self.plan.header, self.plan.grid, self.STEP
         wrong.paths = [RobotPath(robot_id="ghost", cells=[0])]
