@@ -100,6 +100,7 @@ std::string readFormat(const CommandLine& line) {
 
 std::vector<Vertex> verticesOf(const Grid& grid, const std::vector<Cell>& cells) {
   std::vector<Vertex> vertices;
+  vertices.reserve(cells.size());
   for (const Cell cell : cells) vertices.push_back(grid.vertexAt(cell));
   return vertices;
 }
