@@ -110,7 +110,7 @@ class Rolling::Run {
     for (const RollingRobot& robot : question.robots) {
       if (!robot.may_move) closed_[robot.prefix.back()] = true;
     }
-    slopes_.close(closed_);
+    if (slopes_.close(closed_)) progress_.measureAnew();
   }
 
   void readItineraries(const RollingQuestion& question) {
@@ -126,7 +126,7 @@ class Rolling::Run {
       const std::size_t held = held_.size();
       addGoals(asked, robot, itinerary);
       if (itinerary.count > 0 && asked.may_move) {
-        noteProgress(asked, robot, *held_[held], itinerary);
+        weighDelay(asked, robot, *held_[held], itinerary);
       } else {
         progress_.forget(asked.id);
       }
@@ -134,9 +134,8 @@ class Rolling::Run {
     held_before_.clear();
   }
 
-  void noteProgress(const RollingRobot& asked, std::uint32_t robot, const Slope& slope,
-                    Itinerary& itinerary) {
-    progress_.note(graph_, asked.id, asked.prefix.front(), itinerary.goals[0], slope, now_);
+  void weighDelay(const RollingRobot& asked, std::uint32_t robot, const Slope& slope,
+                  Itinerary& itinerary) {
     const std::uint32_t stuck = progress_.stuckFor(asked.id, now_);
     itinerary.weight = 1 + std::min(kMostWeight, stuck / kWeightEvery);
     if (stuck < patience_ * options_.window) return;
@@ -160,7 +159,9 @@ class Rolling::Run {
       }
       itinerary.goals[itinerary.count] = goal;
       itinerary.slopes[itinerary.count++] = slope->data();
-      left -= slope->distance(graph_, from, left);
+      left -= itinerary.count == 1
+                  ? std::min(left, progress_.note(graph_, asked.id, from, goal, *slope, now_))
+                  : slope->distance(graph_, from, left);
       held_.push_back(std::move(slope));
       if (left == 0) return;
       from = goal;

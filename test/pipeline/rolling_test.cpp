@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "pipeline/rolling/progress.h"
 #include "split_mapf/core/distance_table.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/fleet_check.h"
@@ -333,6 +334,28 @@ TEST(Rolling, StarvesNobodyInLanesWithRooms) {
   const RollReport report = roll(grid, task, options);
   EXPECT_GT(report.goals_reached, 200U);
   EXPECT_LT(report.longest_wait, 10 * report.service_mean);
+}
+
+TEST(Rolling, CountsDistancesAnewWhenWallsChange) {
+  const GridPtr grid = test::gridFromAscii({".....", ".###.", "....."});
+  const rolling::MoveGraph graph(*grid);
+  rolling::SlopeCache slopes(graph, 1 << 20);
+  rolling::Progress progress;
+  const Vertex goal = grid->vertexAt({4, 0});
+  const auto note = [&](Cell at, std::uint64_t now) {
+    return progress.note(graph, 1, grid->vertexAt(at), goal, *slopes.find(goal), now);
+  };
+  EXPECT_EQ(note({1, 0}, 1), 3U);
+  EXPECT_EQ(note({2, 0}, 2), 2U);
+  std::vector<bool> closed(graph.size(), false);
+  closed[grid->vertexAt({3, 0})] = true;
+  ASSERT_TRUE(slopes.close(closed));
+  progress.measureAnew();
+  EXPECT_EQ(note({1, 0}, 3), 9U);
+  EXPECT_EQ(progress.best(1), 9U);
+  EXPECT_EQ(progress.stuckFor(1, 3), 1U);
+  EXPECT_EQ(note({0, 0}, 4), 8U);
+  EXPECT_EQ(progress.stuckFor(1, 4), 0U);
 }
 
 void expectRefusal(const GridPtr& grid, const RollingQuestion& question, const std::string& part) {

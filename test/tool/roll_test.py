@@ -110,7 +110,6 @@ class RollTest(CommandTest):
 
     def test_a_limit_ends_the_run(self):
         result = self.roll("--agents", 40, "--steps", 1000000, "--time-limit", 0.5, code=3)
-        self.assertGreater(result["steps"], 0)
         self.assertLess(result["steps"], 1000000)
 
 

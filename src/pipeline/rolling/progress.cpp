@@ -2,11 +2,12 @@
 
 namespace split_mapf::rolling {
 
-void Progress::note(const MoveGraph& graph, std::uint32_t id, Vertex at, Vertex goal,
-                    const Slope& slope, std::uint64_t now) {
+std::uint32_t Progress::note(const MoveGraph& graph, std::uint32_t id, Vertex at, Vertex goal,
+                             const Slope& slope, std::uint64_t now) {
   Robot& robot = robots_[id];
   const bool is_new = robot.goal != goal;
-  const Slot slot = is_new ? MoveGraph::kNoSlot : graph.slotOf(robot.at, at);
+  const bool is_measured = !is_new && robot.at != kNoVertex;
+  const Slot slot = is_measured ? graph.slotOf(robot.at, at) : MoveGraph::kNoSlot;
   if (slot < kSlots) {  // one move further than last time: its slope says what that was worth
     const std::uint32_t bits = slope[robot.at];
     if ((bits >> slot & 1U) != 0) {
@@ -19,9 +20,18 @@ void Progress::note(const MoveGraph& graph, std::uint32_t id, Vertex at, Vertex 
   }
   robot.at = at;
   robot.goal = goal;
-  if (!is_new && robot.left >= robot.best) return;
+  if (!is_new && is_measured && robot.left >= robot.best) return robot.left;
+  if (!is_new && !is_measured) {
+    robot.best = robot.left;
+    return robot.left;
+  }
   robot.best = robot.left;
   robot.since = now;
+  return robot.left;
+}
+
+void Progress::measureAnew() {
+  for (auto& robot : robots_) robot.second.at = kNoVertex;
 }
 
 std::uint32_t Progress::stuckFor(std::uint32_t id, std::uint64_t now) const {

@@ -11,8 +11,11 @@ namespace split_mapf::rolling {
 class Progress {
  public:
   /// Tells where a robot is. @param slope  to the goal. @pre the goal can be reached from `at`.
-  void note(const MoveGraph& graph, std::uint32_t id, Vertex at, Vertex goal, const Slope& slope,
-            std::uint64_t now);
+  /// @return its distance to the goal [steps]. Cost: O(1) while it goes on to the same goal.
+  std::uint32_t note(const MoveGraph& graph, std::uint32_t id, Vertex at, Vertex goal,
+                     const Slope& slope, std::uint64_t now);
+  /// Walls have changed, and so has every distance: what was the nearest is counted anew.
+  void measureAnew();
   /// Of a robot without a goal that it could reach.
   void forget(std::uint32_t id) { robots_.erase(id); }
   /// Steps for which the robot has gained nothing.
@@ -22,7 +25,7 @@ class Progress {
 
  private:
   struct Robot {
-    Vertex at = kNoVertex;
+    Vertex at = kNoVertex;  // kNoVertex: to be measured anew
     Vertex goal = kNoVertex;
     std::uint32_t left = 0;  // steps to the goal from `at`
     std::uint32_t best = 0;
