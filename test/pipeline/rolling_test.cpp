@@ -79,7 +79,7 @@ std::uint32_t leastLoss(const Grid& grid, const RollingQuestion& question, std::
   const Vertex a0 = question.robots[0].prefix[0];
   const Vertex b0 = question.robots[1].prefix[0];
   now[{a0, b0, one(a0) == 0, two(b0) == 0}] = 0;
-  const auto stepsFrom = [&](Vertex v) {
+  const auto steps_from = [&](Vertex v) {
     std::vector<Vertex> next(graph.neighbours(v).begin(), graph.neighbours(v).end());
     next.push_back(v);
     return next;
@@ -87,8 +87,8 @@ std::uint32_t leastLoss(const Grid& grid, const RollingQuestion& question, std::
   for (std::uint32_t t = 0; t < steps; ++t) {
     std::map<State, std::uint32_t> then;
     for (const auto& [state, loss] : now) {
-      for (const Vertex a : stepsFrom(state.a)) {
-        for (const Vertex b : stepsFrom(state.b)) {
+      for (const Vertex a : steps_from(state.a)) {
+        for (const Vertex b : steps_from(state.b)) {
           if (a == b || (a == state.b && b == state.a)) continue;
           std::uint32_t more = loss;
           if (!state.a_done) more += 1 + one(a) - one(state.a);
