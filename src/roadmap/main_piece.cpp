@@ -5,8 +5,9 @@
 
 namespace split_mapf::roadmap {
 
-MainPiece::MainPiece(Draft& draft, Coverage& coverage, const Pieces& areas, std::uint32_t width)
-    : draft_(draft), coverage_(coverage), areas_(areas), width_(width) {
+MainPiece::MainPiece(Draft& draft, Coverage& coverage, const Pieces& areas, std::uint32_t width,
+                     const Deadline& deadline)
+    : draft_(draft), coverage_(coverage), areas_(areas), width_(width), deadline_(deadline) {
   struct Largest {
     std::uint32_t first = 0;
     std::uint32_t size = 0;
@@ -39,6 +40,7 @@ MainPiece::MainPiece(Draft& draft, Coverage& coverage, const Pieces& areas, std:
 }
 
 void MainPiece::join(std::uint32_t v) {
+  deadline_.require();
   draft_.setMain(v, true);
   coverage_.add(draft_.at(v));
   log_.push_back({draft_.at(v), true});

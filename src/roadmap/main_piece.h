@@ -6,6 +6,7 @@
 #include "roadmap/coverage.h"
 #include "roadmap/draft.h"
 #include "roadmap/lattice.h"
+#include "split_mapf/core/deadline.h"
 
 namespace split_mapf::roadmap {
 
@@ -14,7 +15,10 @@ namespace split_mapf::roadmap {
 class MainPiece {
  public:
   /// The largest piece of the draft in each piece of the free space is its main one.
-  MainPiece(Draft& draft, Coverage& coverage, const Pieces& areas, std::uint32_t width);
+  /// @param deadline  outlives this; whatever lets vertices join throws Interrupted when it
+  /// strikes.
+  MainPiece(Draft& draft, Coverage& coverage, const Pieces& areas, std::uint32_t width,
+            const Deadline& deadline);
 
   /// The piece of the free space in which a cell lies. @pre the cell is clear
   std::uint32_t areaOf(Cell at) const {
@@ -69,6 +73,7 @@ class MainPiece {
   Coverage& coverage_;
   const Pieces& areas_;
   std::uint32_t width_;
+  const Deadline& deadline_;
   std::uint32_t size_ = 0;
   std::vector<Entry> log_;
   std::vector<std::uint32_t> stamps_;  // vertex -> the search that reached it last

@@ -17,12 +17,12 @@ constexpr std::size_t kMostSquares = 60;  // that a search for a way may look at
 }  // namespace
 
 Passages::Passages(const ClearSpace& space, const Pieces& areas, const CellGraph& lattice,
-                   const GraphScale& scale)
+                   const GraphScale& scale, const Deadline& deadline)
     : space_(space),
       scale_(scale),
       draft_(lattice, space.raster().width, space.raster().height, scale.spacing),
       coverage_(space, scale.spacing),
-      main_(draft_, coverage_, areas, space.raster().width),
+      main_(draft_, coverage_, areas, space.raster().width, deadline),
       search_(space, draft_, main_, scale),
       insertion_(space, draft_, main_, coverage_, scale),
       ways_(space),
@@ -96,7 +96,7 @@ bool Passages::layInto(const Blob& blob) {
 /// Leads chains to the pieces of the lattice that passages part from the main one, as it grows. A
 /// vertex near one that could not be joined is left out. @return false when the deadline struck
 bool Passages::joinPieces(const Deadline& deadline) {
-  wave_.startEverywhere();
+  wave_.startEverywhere(deadline);
   std::vector<Cell> failed;
   const auto gap = static_cast<std::int32_t>(2 * scale_.spacing);
   while (const auto target = wave_.nextVertex()) {
@@ -115,7 +115,7 @@ bool Passages::fillBlobs(const Deadline& deadline) {
   const auto least = static_cast<std::size_t>(std::max(1.0, kLeastBlob * square));
   for (int pass = 0; pass < kMostPasses; ++pass) {
     bool gained = false;
-    for (const Blob& blob : unreached_.blobs(least, scale_.spacing)) {
+    for (const Blob& blob : unreached_.blobs(least, scale_.spacing, deadline)) {
       while (unreached_.uncovered(blob) >= std::min(least, std::size_t{scale_.spacing})) {
         if (deadline.expired()) return false;
         if (!layInto(blob)) break;

@@ -19,7 +19,7 @@ class Passages {
  public:
   /// @param areas  the pieces of the free space
   Passages(const ClearSpace& space, const Pieces& areas, const CellGraph& lattice,
-           const GraphScale& scale);
+           const GraphScale& scale, const Deadline& deadline);
 
   /// @return false when the deadline struck
   bool lay(const Deadline& deadline);

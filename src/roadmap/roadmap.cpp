@@ -120,7 +120,8 @@ std::optional<CellGraph> bestGraph(const ClearSpace& space, const GraphScale& sc
   std::optional<CellGraph> best;
   std::uint64_t most = 0;
   for (const Offset& offset : offsets) {
-    Passages passages(space, areas, roadmap::latticeAt(space, scale.spacing, offset), scale);
+    Passages passages(space, areas, roadmap::latticeAt(space, scale.spacing, offset), scale,
+                      deadline);
     if (!passages.lay(deadline)) return std::nullopt;
     if (best && passages.covered() <= most) continue;
     most = passages.covered();
@@ -138,9 +139,13 @@ std::optional<Roadmap> build(const ClearSpace& space, const RoadmapOptions& opti
     return finish(roadmap::latticeAt(space, spacing, offsets.front()), space, options, spacing);
   }
   const GraphScale scale = scaleOf(options, space.raster().resolution_m, spacing);
-  const std::optional<CellGraph> graph = bestGraph(space, scale, offsets, deadline);
-  if (!graph) return std::nullopt;
-  return finish(*graph, space, options, spacing);
+  try {
+    const std::optional<CellGraph> graph = bestGraph(space, scale, offsets, deadline);
+    if (!graph) return std::nullopt;
+    return finish(*graph, space, options, spacing);
+  } catch (const Interrupted&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace

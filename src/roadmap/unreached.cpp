@@ -38,10 +38,13 @@ bool Unreached::isLong(const std::vector<std::uint32_t>& cells, std::uint32_t si
   return std::max(right - left, bottom - top) >= static_cast<std::int32_t>(side);
 }
 
-std::vector<Blob> Unreached::blobs(std::size_t least, std::uint32_t long_side) {
+std::vector<Blob> Unreached::blobs(std::size_t least, std::uint32_t long_side,
+                                   const Deadline& deadline) {
+  SparsePoll poll(deadline);
   std::fill(seen_.begin(), seen_.end(), 0);
   std::vector<Blob> blobs;
   for (std::uint32_t cell = 0; cell < space_.cells(); ++cell) {
+    poll();
     if (seen_[cell] != 0 || !isOpen(cell)) continue;
     queue_.assign(1, cell);
     seen_[cell] = 1;

@@ -6,6 +6,7 @@
 #include "roadmap/clear_space.h"
 #include "roadmap/coverage.h"
 #include "roadmap/draft.h"
+#include "split_mapf/core/deadline.h"
 
 namespace split_mapf::roadmap {
 
@@ -21,7 +22,7 @@ class Unreached {
 
   /// Blobs of at least `least` cells or at least `long_side` cells long, the largest first. Cost:
   /// O(cells).
-  std::vector<Blob> blobs(std::size_t least, std::uint32_t long_side);
+  std::vector<Blob> blobs(std::size_t least, std::uint32_t long_side, const Deadline& deadline);
   /// How many of a blob's cells are still not covered.
   std::size_t uncovered(const Blob& blob) const;
   /// Cells to aim at, the nearest to what is covered first: up to `most` vertices of other pieces,

@@ -27,8 +27,10 @@ void Wavefront::push(std::uint32_t cell) {
   queue_.push_back(cell);
 }
 
-void Wavefront::startEverywhere() {
+void Wavefront::startEverywhere(const Deadline& deadline) {
+  SparsePoll poll(deadline);
   for (std::uint32_t cell = 0; cell < space_.cells(); ++cell) {
+    poll();
     if (isOpen(cell) && touchesCovered(cell)) push(cell);
   }
 }

@@ -7,6 +7,7 @@
 #include "roadmap/clear_space.h"
 #include "roadmap/coverage.h"
 #include "roadmap/draft.h"
+#include "split_mapf/core/deadline.h"
 
 namespace split_mapf::roadmap {
 
@@ -19,7 +20,7 @@ class Wavefront {
             std::uint32_t reach);
 
   /// Spreads from all that is covered. Cost: O(cells).
-  void startEverywhere();
+  void startEverywhere(const Deadline& deadline);
   /// Spreads from what a vertex that joined covers, too. Cost: O(reach^2).
   void startAround(Cell vertex);
   /// The next cell that holds a vertex of another piece. Each is told once.
