@@ -1,7 +1,7 @@
 #include "split_mapf/ros/fleet_options.h"
 
 #include <algorithm>
-#include <set>
+#include <array>
 
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
@@ -17,9 +17,9 @@ constexpr double kTimeLimitSec = 10;
 
 // Of the planner node, without a meaning here: a fleet is planned anew for the sum of costs, on the
 // cells and with the step of the plan that it carries out.
-const std::set<std::string> kOfPlannerAlone = {
-    "objective", "step_duration", "robot_speed",      "cell_size",     "clearance", "snap_distance",
-    "passages",  "ignore_specks", "max_queued_goals", "publish_paths", "fill_poses"};
+constexpr std::array<const char*, 10> kOfPlannerAlone = {
+    "objective",     "step_duration", "robot_speed",      "cell_size",     "clearance",
+    "snap_distance", "passages",      "max_queued_goals", "publish_paths", "fill_poses"};
 
 bool readChoice(ParameterReader& reader, const std::string& name, const char* yes, const char* no,
                 bool chosen) {
@@ -82,7 +82,8 @@ std::vector<std::string> findUnknownFleetParameters(const XmlRpc::XmlRpcValue& p
   };
   unknown.erase(std::remove_if(unknown.begin(), unknown.end(), is_of_fleet), unknown.end());
   for (const std::string& name : ParameterReader(parameters).unreadNames()) {
-    if (kOfPlannerAlone.count(name) > 0) unknown.push_back(name);
+    const auto* const end = kOfPlannerAlone.end();
+    if (std::find(kOfPlannerAlone.begin(), end, name) != end) unknown.push_back(name);
   }
   return unknown;
 }
