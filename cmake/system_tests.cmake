@@ -17,10 +17,8 @@ set_tests_properties(tool PROPERTIES TIMEOUT 600)
 # What takes longest begins first. Under sanitizers nobody looks at time.
 get_property(split_mapf_tests DIRECTORY PROPERTY TESTS)
 foreach(test IN LISTS split_mapf_tests)
-  if(SPLIT_MAPF_SANITIZE)
-    set_tests_properties(${test} PROPERTIES COST 100)
-  elseif(test MATCHES "(core|solver|pipeline|ilp|ros)_tests$"
-      OR test MATCHES "rostest.*(big_maps|plan_server|strange_goals|termination)")
+  if(NOT SPLIT_MAPF_SANITIZE AND (test MATCHES "(core|solver|pipeline|ilp|ros)_tests$"
+      OR test MATCHES "rostest.*(big_maps|plan_server|strange_goals|termination)"))
     set_tests_properties(${test} PROPERTIES RUN_SERIAL ON)
   elseif(test MATCHES "rostest")
     set_tests_properties(${test} PROPERTIES COST 100)
