@@ -109,19 +109,11 @@ class Refinement {
 
   /// A turn of the search over joint states; others of the executor's callers get theirs before it.
   void settle() {
-    const std::uint64_t bound = settlement_.lowerBound();
-    const std::uint64_t least_sum = settlement_.leastSum();
     std::optional<Plan> better;
     std::vector<Executor::Job> jobs(1);
     jobs[0].run = [&] { better = settlement_.takeTurn(plan_, deadline_); };
     executor_.run(std::move(jobs), 1, deadline_);
-    if (options_.proved && settlement_.lowerBound() > bound) {
-      options_.proved(options_.objective, settlement_.lowerBound());
-    }
-    if (options_.proved && options_.objective == Objective::kMakespan &&
-        settlement_.leastSum() > least_sum) {
-      options_.proved(Objective::kSumOfCosts, settlement_.leastSum());
-    }
+    settlement_.tellNew(options_.proved);
     if (better) takeElsewhere(std::move(*better));
   }
 

@@ -78,7 +78,6 @@ class Turns {
     RefineOptions options;
     Plan best;
     std::optional<Settlement> settlement;  // of a small knot
-    std::uint64_t least_sum = 0;           // that it proved, see Settlement
     double seconds = 0;                    // counted, a lane's
     bool is_done = false;                  // no more turns
   };
@@ -157,18 +156,9 @@ class Turns {
 
   void takeBounds(Side& side) {
     if (!side.settlement) return;
-    const Objective objective = side.options.objective;
     side.is_done = side.is_done || side.settlement->isBest(side.best);
-    tell(side, objective, side.settlement->lowerBound(), side.options.lower_bound);
-    if (objective == Objective::kMakespan) {
-      tell(side, Objective::kSumOfCosts, side.settlement->leastSum(), side.least_sum);
-    }
-  }
-
-  void tell(const Side& side, Objective objective, std::uint64_t bound, std::uint64_t& known) {
-    if (bound <= known) return;
-    known = bound;
-    if (isAskedFor(side) && asked_.proved) asked_.proved(objective, bound);
+    side.options.lower_bound = side.settlement->lowerBound();
+    if (isAskedFor(side)) side.settlement->tellNew(asked_.proved);
   }
 
   const Instance& instance_;

@@ -19,7 +19,18 @@ Settlement::Settlement(const Instance& instance, Objective objective, std::uint6
     : instance_(instance),
       objective_(objective),
       bound_(std::max(lower_bound, split_mapf::lowerBound(instance, objective))),
-      sum_bound_(objective == Objective::kSumOfCosts ? bound_ : sumOfCostsLowerBound(instance)) {}
+      sum_bound_(objective == Objective::kSumOfCosts ? bound_ : sumOfCostsLowerBound(instance)),
+      told_bound_(bound_),
+      told_sum_(sum_bound_) {}
+
+void Settlement::tellNew(const Proved& proved) {
+  if (proved && bound_ > told_bound_) proved(objective_, bound_);
+  if (proved && objective_ == Objective::kMakespan && sum_bound_ > told_sum_) {
+    proved(Objective::kSumOfCosts, sum_bound_);
+  }
+  told_bound_ = bound_;
+  told_sum_ = sum_bound_;
+}
 
 std::optional<Plan> Settlement::takeTurn(const Plan& plan, const Deadline& deadline) {
   try {

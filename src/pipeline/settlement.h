@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 
 #include "split_mapf/core/deadline.h"
@@ -29,6 +30,11 @@ class Settlement {
   /// Too little memory ends the turns.
   std::optional<Plan> takeTurn(const Plan& plan, const Deadline& deadline);
 
+  /// Told what is proved, of the objective, and for makespan of the sum of costs within it.
+  using Proved = std::function<void(Objective, std::uint64_t bound)>;
+  /// Tells each bound that has risen since the last call; null: nobody is told.
+  void tellNew(const Proved& proved);
+
   /// That the next turn may take.
   std::uint64_t states() const { return states_; }
   /// Proved for the objective [steps].
@@ -51,6 +57,8 @@ class Settlement {
   const Objective objective_;
   std::uint64_t bound_;
   std::uint64_t sum_bound_;
+  std::uint64_t told_bound_;
+  std::uint64_t told_sum_;
   std::uint64_t states_ = kFirstStates;  // of the next turn
 };
 

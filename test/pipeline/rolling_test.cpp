@@ -47,6 +47,21 @@ RollingOptions windowOf(std::uint32_t steps) {
   return options;
 }
 
+GridPtr generatedHall(std::uint32_t side) {
+  GeneratorOptions map;
+  map.width = map.height = side;
+  map.robots = 1;
+  return generateProblem(map).grid;
+}
+
+/// Robots anywhere, whose next goals are drawn.
+RollTask randomGoals(const Grid& grid, std::uint32_t robots, std::uint64_t seed) {
+  RollTask task;
+  task.starts = drawStarts(grid, robots, seed);
+  task.random = true;
+  return task;
+}
+
 /// Looks at every entry of every path, with nothing but the grid's cells.
 void expectValid(const Grid& grid, const std::vector<Path>& paths, std::uint32_t steps) {
   for (std::uint32_t t = 0; t <= steps; ++t) {
@@ -218,13 +233,8 @@ TEST(Rolling, KeepsPrefixesAndRulesInRandomScenes) {
 }
 
 TEST(Rolling, IsTheSameAtAnyNumberOfThreads) {
-  GeneratorOptions map;
-  map.width = map.height = 20;
-  map.robots = 1;
-  const GridPtr grid = generateProblem(map).grid;
-  RollTask task;
-  task.starts = drawStarts(*grid, 120, 3);
-  task.random = true;
+  const GridPtr grid = generatedHall(20);
+  const RollTask task = randomGoals(*grid, 120, 3);
   RollOptions options;
   options.steps = 60;
   options.warmup = 10;
@@ -239,13 +249,8 @@ TEST(Rolling, IsTheSameAtAnyNumberOfThreads) {
 }
 
 TEST(Rolling, ImprovesOnPriorityInheritance) {
-  GeneratorOptions map;
-  map.width = map.height = 24;
-  map.robots = 1;
-  const GridPtr grid = generateProblem(map).grid;
-  RollTask task;
-  task.starts = drawStarts(*grid, 150, 1);
-  task.random = true;
+  const GridPtr grid = generatedHall(24);
+  const RollTask task = randomGoals(*grid, 150, 1);
   RollOptions options;
   options.steps = 120;
   options.warmup = 20;
@@ -324,9 +329,7 @@ TEST(Rolling, StarvesNobodyInLanesWithRooms) {
                                             "...##########.##...####", "#.############.###.####",
                                             ".......................", "#.######.##########.###",
                                             "...####...########...##", "...####...########...##"});
-  RollTask task;
-  task.starts = drawStarts(*grid, 12, 2);
-  task.random = true;
+  const RollTask task = randomGoals(*grid, 12, 2);
   RollOptions options;
   options.steps = 1500;
   options.warmup = 100;

@@ -5,16 +5,13 @@
 #include <string>
 #include <utility>
 
+#include "ros/one_parameter.h"
 #include "split_mapf/core/error.h"
 
 namespace split_mapf {
 namespace {
 
-XmlRpc::XmlRpcValue parametersOf(const std::string& name, const XmlRpc::XmlRpcValue& value) {
-  XmlRpc::XmlRpcValue parameters;
-  parameters[name] = value;
-  return parameters;
-}
+using test::parametersOf;
 
 TEST(FleetOptions, HaveTheirDefaults) {
   const FleetServerOptions options = readFleetOptions(XmlRpc::XmlRpcValue(), "kept.json");

@@ -4,16 +4,13 @@
 
 #include <string>
 
+#include "ros/one_parameter.h"
 #include "split_mapf/core/error.h"
 
 namespace split_mapf {
 namespace {
 
-XmlRpc::XmlRpcValue parametersOf(const std::string& name, const XmlRpc::XmlRpcValue& value) {
-  XmlRpc::XmlRpcValue parameters;
-  parameters[name] = value;
-  return parameters;
-}
+using test::parametersOf;
 
 TEST(Vda5050BridgeOptions, HaveTheirDefaults) {
   const Vda5050BridgeOptions options = readVda5050BridgeOptions(XmlRpc::XmlRpcValue());
