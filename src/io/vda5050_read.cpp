@@ -12,6 +12,8 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr int kDeepest = 32;  // levels; messages of the standard have five
+
 /// A value of a message, and how its place is called.
 class Field {
  public:
@@ -76,8 +78,13 @@ class Field {
 };
 
 Json parse(const std::string& text) {
+  // What is told of a value is written by recursion: it must not be deeper than any stack.
+  const auto is_flat = [](int depth, Json::parse_event_t /*event*/, Json& /*value*/) {
+    if (depth > kDeepest) throw InputError("the message is nested too deeply");
+    return true;
+  };
   try {
-    return Json::parse(text);
+    return Json::parse(text, is_flat);
   } catch (const Json::exception&) {
     throw InputError("the message is " + quote(text) + "; JSON is expected");
   }

@@ -1,6 +1,5 @@
 // The bridge to robots that speak VDA 5050 over MQTT: wiring only.
 
-#include <memory>
 #include <string>
 
 #include <ros/ros.h>
@@ -14,10 +13,10 @@ namespace {
 void run(split_mapf::NodeContext& context) {
   const split_mapf::Vda5050BridgeOptions options =
       split_mapf::readVda5050BridgeOptions(context.parameters);
-  std::unique_ptr<split_mapf::MqttClient> client;
+  split_mapf::MqttClient* sender = nullptr;
   split_mapf::Vda5050Bridge bridge(context.node, context.private_node, options,
-                                   [&client](const std::string& topic, const std::string& text) {
-                                     return client->send(topic, text);
+                                   [&sender](const std::string& topic, const std::string& text) {
+                                     return sender != nullptr && sender->send(topic, text);
                                    });
   split_mapf::MqttSetup setup;
   setup.host = options.host;
@@ -30,11 +29,11 @@ void run(split_mapf::NodeContext& context) {
   setup.receive = [&bridge](const std::string& topic, const std::string& text) {
     bridge.receive(topic, text);
   };
-  client = std::make_unique<split_mapf::MqttClient>(setup);
-  client->start();
+  // It goes before the bridge that it calls, and only after its thread has ended.
+  split_mapf::MqttClient client(setup);
+  sender = &client;
+  client.start();
   split_mapf::serve(1, "ready: broker " + options.host + ":" + std::to_string(options.port));
-  // Before the bridge that it calls; by now no callback of ROS runs.
-  client.reset();
 }
 
 }  // namespace

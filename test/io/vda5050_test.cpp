@@ -166,5 +166,17 @@ TEST(Vda5050, ReadsAConnection) {
   EXPECT_THROW(parseVda5050Connection(R"({"connectionState": "AWAY"})"), InputError);
 }
 
+TEST(Vda5050, AMessageThatIsNestedDeeplyOverflowedTheStack) {
+  const std::size_t deep = 200000;
+  const std::string text =
+      R"({"orderId": )" + std::string(deep, '[') + std::string(deep, ']') + "}";
+  try {
+    parseVda5050State(text);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "the message is nested too deeply");
+  }
+}
+
 }  // namespace
 }  // namespace split_mapf
