@@ -42,7 +42,7 @@ STRAIGHT = 1e-3  # [rad]
 
 def ros_name_of(robot_id):
     """As the fleet names the robot's topics."""
-    name = re.sub(r"[^A-Za-z0-9_]", "_", robot_id)
+    name = re.sub(rb"[^A-Za-z0-9_]", b"_", robot_id.encode()).decode("ascii")
     return name if re.match(r"[A-Za-z]", name) else "r" + name
 
 
@@ -259,7 +259,7 @@ class RouteDriver:
 
     def take_end(self, handle, sent):
         """move_base has come to the end of a goal."""
-        if sent != self.goal:
+        if handle != self.handle:
             return  # of an older one
         self.goal = self.handle = None
         state = handle.get_terminal_state()
