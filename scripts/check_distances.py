@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Checks in a bag that no two robots ever came too close: reads the poses in RobotProgress messages.
 
-Robots may report at moments of their own: between two of its poses each is taken to go straight, and
-after its last one to stand. Where a robot is that drives is not known while poses are missing. Positions are compared at moments that are --period apart at least, and
-between these the least distance is that of continuous time, but for corners cut within a period.
+Robots may report at moments of their own: between two of its poses each is taken to go straight,
+and after its last one to stand. Where a robot is that drives is not known while poses are missing.
+Positions are compared at moments that are --period apart at least, and between these the least
+distance is that of continuous time, but for corners cut within a period.
 
 exit codes: 0 they kept apart, 1 bad usage or nothing to compare, 2 some came too close
 """

@@ -9,8 +9,7 @@
 
 namespace split_mapf {
 
-/// What a node is made of, once ROS has begun. Anything thrown is told in the log and ends the
-/// process with 1.
+/// What a node is made of, once ROS has begun.
 struct NodeContext {
   ros::NodeHandle node;
   ros::NodeHandle private_node{"~"};
@@ -24,7 +23,8 @@ struct NodeContext {
 void serve(std::uint32_t threads, const std::string& ready,
            const std::function<void()>& end = nullptr);
 
-/// The main() of a node: begins ROS under a name, runs, ends ROS. Returns the exit code.
+/// The main() of a node: begins ROS under a name, runs, ends ROS. Returns the exit code:
+/// anything thrown is told in the log and ends the process with 1.
 int runNode(int argc, char** argv, const char* name, void (*run)(NodeContext&));
 
 }  // namespace split_mapf

@@ -194,7 +194,8 @@ std::optional<std::uint32_t> FleetExecution::find(const std::string& id) const {
 std::vector<RouteStep> FleetExecution::route(std::uint32_t robot, std::uint32_t horizon) const {
   const Precedence& order = graph_.precedence();
   std::vector<RouteStep> steps;
-  const VisitId most = std::min(order.last(robot), promised_[robot] + horizon);
+  const VisitId last = order.last(robot);
+  const VisitId most = promised_[robot] + std::min(horizon, last - promised_[robot]);
   for (VisitId v = graph_.at(robot); v <= most; ++v) {
     RouteStep step;
     step.sequence = sequences_[v];

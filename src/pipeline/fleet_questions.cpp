@@ -126,11 +126,11 @@ void FleetExecution::take(FleetAnswer answer, double now) {
   if (answer.anew) {
     failed_ = 0;
     trouble_.clear();
+    // Where cells have opened since, there may be a way by now.
+    const bool is_late = openings_ != question_openings_;
     for (std::uint32_t robot = 0; robot < robots_.size(); ++robot) {
       robots_[robot].fault = answer.faults[robot];
       if (question_void_[robot]) robots_[robot].void_promise = false;
-      // There may be a way by now.
-      const bool is_late = openings_ != question_openings_;
       if (is_late && answer.faults[robot] != GoalFault::kNone) incident_ = true;
     }
     next_anew_ = now + std::min(kBetweenPlansSec, options_.step_sec);

@@ -9,8 +9,8 @@
 
 namespace split_mapf {
 
-/// refine() for either objective in turns, of which each is twice as long as that before, up to
-/// some seconds: makespan, sum of costs, and so on, whichever was asked for. In a turn a fixed
+/// refine() for either objective in turns, whichever was asked for: one for makespan and one for
+/// sum of costs, then both twice as long, and so on up to some seconds each. In a turn a fixed
 /// number of searches go side by side, each with draws of its own, on as many threads as there are;
 /// what the turn found begins the next one of each objective that it serves better. Turns are
 /// counted in work, not by the clock. So a request does the same at any number of threads and at

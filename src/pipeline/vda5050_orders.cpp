@@ -1,7 +1,6 @@
 // Of a robot that speaks VDA 5050: what is sent to it.
 
 #include <algorithm>
-#include <cmath>
 
 #include "pipeline/vda5050_ids.h"
 #include "split_mapf/pipeline/vda5050_vehicle.h"

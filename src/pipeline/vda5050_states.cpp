@@ -215,7 +215,8 @@ std::string Vda5050Vehicle::trouble(double now) const {
   if (!state_) return "has sent no state";
   if (!online_) return "is not connected to the broker";
   if (isSilent(now)) return "has sent no state for " + numeral(now - heard_) + " s";
-  for (const Vda5050Error& error : state_->errors) {
+  if (!state_->errors.empty()) {
+    const Vda5050Error& error = state_->errors.front();
     return "says " + shown(error.type) +
            (error.description.empty() ? "" : ": " + shown(error.description));
   }

@@ -54,11 +54,19 @@ ObstacleRaster rasterOf(std::uint32_t width, std::uint32_t height, const std::ve
   return raster;
 }
 
-void freeSpecks(ObstacleRaster& raster, std::uint32_t most_cells) {
+std::vector<bool> freeCells(const ObstacleRaster& raster) {
+  std::vector<bool> free(raster.blocked.size());
+  for (std::size_t i = 0; i < free.size(); ++i) free[i] = raster.blocked[i] == 0;
+  return free;
+}
+
+void freeSpecks(ObstacleRaster& raster, std::uint32_t most_cells, const Deadline& deadline) {
   if (most_cells == 0) return;
   std::vector<std::uint8_t> seen(raster.blocked.size(), 0);
   std::vector<std::size_t> blob;
+  SparsePoll poll(deadline);
   for (std::size_t i = 0; i < raster.blocked.size(); ++i) {
+    poll();
     if (raster.blocked[i] == 0 || seen[i] != 0) continue;
     collectBlob(raster, i, seen, blob);
     if (blob.size() > most_cells) continue;

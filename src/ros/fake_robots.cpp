@@ -25,14 +25,6 @@ constexpr double kLongestTickSec = 1;
 constexpr std::uint32_t kQueue = 20000;
 constexpr std::int64_t kMostSteps = 1000000;
 
-double readPositive(ParameterReader& reader, const char* name, double value, bool or_zero) {
-  reader.read(name, value);
-  const bool fine = std::isfinite(value) && (value > 0 || (or_zero && value == 0));
-  if (fine) return value;
-  throw OptionError(std::string("parameter ~") + name + " is " + numeral(value) + "; a number " +
-                    (or_zero ? ">= 0" : "> 0") + " is expected");
-}
-
 std::map<std::string, double> failuresOf(const std::vector<std::string>& entries) {
   std::map<std::string, double> failures;
   for (const std::string& entry : entries) {
@@ -85,20 +77,18 @@ std_msgs::ColorRGBA grey() {
 FakeRobotsOptions readFakeRobotsOptions(const XmlRpc::XmlRpcValue& parameters) {
   ParameterReader reader(parameters);
   FakeRobotsOptions options;
-  options.motion.speed = readPositive(reader, "speed", options.motion.speed, false);
-  options.motion.acceleration = readPositive(reader, "acceleration", 0, true);
-  options.motion.turn_rate = readPositive(reader, "turn_rate", 0, true);
-  options.delay_step_sec = readPositive(reader, "delay_step", options.delay_step_sec, false);
-  options.rate_hz = readPositive(reader, "rate", options.rate_hz, false);
-  options.diameter_m = readPositive(reader, "diameter", options.diameter_m, true);
+  options.motion.speed = reader.readPositive("speed", options.motion.speed);
+  options.motion.acceleration = reader.readPositive("acceleration", 0, true);
+  options.motion.turn_rate = reader.readPositive("turn_rate", 0, true);
+  options.delay_step_sec = reader.readPositive("delay_step", options.delay_step_sec);
+  options.rate_hz = reader.readPositive("rate", options.rate_hz);
+  options.diameter_m = reader.readPositive("diameter", options.diameter_m, true);
   reader.read("publish_tf", options.publish_tf);
   readDelays(reader, options.delays);
   std::vector<std::string> failures;
   reader.read("failures", failures);
   options.failures = failuresOf(failures);
-  for (const std::string& name : reader.unreadNames()) {
-    ROS_WARN("parameter ~%s is not one of this node", name.c_str());
-  }
+  reader.warnOfUnread();
   return options;
 }
 

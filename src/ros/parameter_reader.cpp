@@ -1,6 +1,9 @@
 #include "split_mapf/ros/parameter_reader.h"
 
+#include <cmath>
 #include <sstream>
+
+#include <ros/console.h>
 
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
@@ -75,6 +78,20 @@ std::int64_t ParameterReader::readInteger(const std::string& name, std::int64_t 
   const std::int64_t number = static_cast<int&>(*value);
   if (number < range.first || number > range.second) refuse(name, *value, expected);
   return number;
+}
+
+double ParameterReader::readPositive(const std::string& name, double default_value, bool or_zero) {
+  double value = default_value;
+  read(name, value);
+  if (std::isfinite(value) && (value > 0 || (or_zero && value == 0))) return value;
+  throw OptionError("parameter ~" + name + " is " + numeral(value) + "; a number " +
+                    (or_zero ? ">= 0" : "> 0") + " is expected");
+}
+
+void ParameterReader::warnOfUnread() {
+  for (const std::string& name : unreadNames()) {
+    ROS_WARN("parameter ~%s is not one of this node", name.c_str());
+  }
 }
 
 std::vector<std::string> ParameterReader::unreadNames() {

@@ -8,7 +8,6 @@
 
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
-#include "split_mapf/roadmap/distance_field.h"
 #include "split_mapf/ros/disc_goal.h"
 #include "split_mapf/ros/orientation.h"
 #include "split_mapf/ros/outcome.h"
@@ -154,14 +153,9 @@ MapFrame frameOf(const MapGeometry& geometry) {
 PlanningGrid makePlanningGrid(const nav_msgs::OccupancyGrid& map, const OccupancyRule& rule,
                               std::uint32_t ignore_specks, const Deadline& deadline) {
   MapGeometry geometry(map.info, map.header.frame_id);
-  std::vector<bool> free;
-  if (ignore_specks == 0) {
-    free = freeCellsOf(map, rule, deadline);
-  } else {
-    const ObstacleRaster raster = makeRaster(map, rule, ignore_specks, deadline);
-    free.resize(raster.blocked.size());
-    for (std::size_t i = 0; i < free.size(); ++i) free[i] = raster.blocked[i] == 0;
-  }
+  const std::vector<bool> free = ignore_specks == 0
+                                     ? freeCellsOf(map, rule, deadline)
+                                     : freeCells(makeRaster(map, rule, ignore_specks, deadline));
   try {
     return {std::make_shared<const Grid>(map.info.width, map.info.height, free, deadline),
             geometry};
@@ -175,7 +169,7 @@ ObstacleRaster makeRaster(const nav_msgs::OccupancyGrid& map, const OccupancyRul
   const std::vector<bool> free = freeCellsOf(map, rule, deadline);
   try {
     ObstacleRaster raster = rasterOf(map.info.width, map.info.height, free, map.info.resolution);
-    freeSpecks(raster, ignore_specks);
+    freeSpecks(raster, ignore_specks, deadline);
     return raster;
   } catch (const InputError& error) {
     refuse(error.what());

@@ -64,9 +64,7 @@ ReplayOptions readReplayOptions(const XmlRpc::XmlRpcValue& parameters) {
   requireAtLeast(0, "trail_steps", options.style.trail_steps);
   requireAtLeast(0.1, "rate", options.rate_hz);
   requireAtLeast(0, "speed", options.speed);
-  for (const std::string& name : reader.unreadNames()) {
-    ROS_WARN("parameter ~%s is not one of this node", name.c_str());
-  }
+  reader.warnOfUnread();
   return options;
 }
 

@@ -1,6 +1,7 @@
 #include "split_mapf/ros/vda5050_bridge.h"
 
 #include <cmath>
+#include <set>
 
 #include <ros/console.h>
 #include <split_mapf/RobotProgress.h>
@@ -9,6 +10,7 @@
 #include "split_mapf/core/wording.h"
 #include "split_mapf/ros/orientation.h"
 #include "split_mapf/ros/parameter_reader.h"
+#include "split_mapf/ros/text_limits.h"
 
 namespace split_mapf {
 namespace {
@@ -19,13 +21,6 @@ constexpr std::int64_t kMostPort = 65535;
 /// Monotonic, and not simulated: a broker keeps no simulated time.
 double now() { return ros::SteadyTime::now().toSec(); }
 double unixTime() { return ros::WallTime::now().toSec(); }
-
-double readPositive(ParameterReader& reader, const char* name, double value) {
-  reader.read(name, value);
-  if (std::isfinite(value) && value > 0) return value;
-  throw OptionError(std::string("parameter ~") + name + " is " + numeral(value) +
-                    "; a number above 0 is expected");
-}
 
 /// A level of an MQTT topic.
 std::string readLevel(ParameterReader& reader, const char* name, std::string value) {
@@ -38,6 +33,7 @@ std::string readLevel(ParameterReader& reader, const char* name, std::string val
 /// "r1" or "r1=AGV-1": a robot, and its serial number where that is another one.
 std::map<std::string, std::string> robotsOf(const std::vector<std::string>& entries) {
   std::map<std::string, std::string> robots;
+  std::set<std::string> ids;
   for (const std::string& entry : entries) {
     const std::size_t equal = entry.find('=');
     const std::string id = entry.substr(0, equal);
@@ -45,6 +41,11 @@ std::map<std::string, std::string> robotsOf(const std::vector<std::string>& entr
     if (id.empty() || serial.empty() || serial.find_first_of("/+#") != std::string::npos) {
       throw OptionError("parameter ~robots has the entry " + quote(entry) +
                         "; ROBOT or ROBOT=SERIALNUMBER, without /, + and #, is expected");
+    }
+    const std::string fault = faultOfRobotId(id);
+    if (!fault.empty()) throw OptionError("parameter ~robots: the id " + quote(id) + " " + fault);
+    if (!ids.insert(id).second) {
+      throw OptionError("parameter ~robots has the robot " + quote(id) + " twice");
     }
     if (!robots.emplace(serial, id).second) {
       throw OptionError("parameter ~robots has the serial number " + quote(serial) + " twice");
@@ -81,17 +82,16 @@ Vda5050BridgeOptions readVda5050BridgeOptions(const XmlRpc::XmlRpcValue& paramet
   reader.read("frame", options.frame);
   vehicle.map_id = "";
   reader.read("map_id", vehicle.map_id);
+  if (vehicle.map_id.empty()) vehicle.map_id = options.frame;
   vehicle.allowed_deviation_m =
-      readPositive(reader, "allowed_deviation", vehicle.allowed_deviation_m);
-  vehicle.resend_sec = readPositive(reader, "resend_time", vehicle.resend_sec);
-  vehicle.state_timeout_sec = readPositive(reader, "state_timeout", vehicle.state_timeout_sec);
-  options.rate_hz = readPositive(reader, "rate", options.rate_hz);
+      reader.readPositive("allowed_deviation", vehicle.allowed_deviation_m);
+  vehicle.resend_sec = reader.readPositive("resend_time", vehicle.resend_sec);
+  vehicle.state_timeout_sec = reader.readPositive("state_timeout", vehicle.state_timeout_sec);
+  options.rate_hz = reader.readPositive("rate", options.rate_hz);
   std::vector<std::string> robots;
   reader.read("robots", robots);
   options.robots = robotsOf(robots);
-  for (const std::string& name : reader.unreadNames()) {
-    ROS_WARN("parameter ~%s is not one of this node", name.c_str());
-  }
+  reader.warnOfUnread();
   return options;
 }
 
@@ -124,7 +124,6 @@ std::vector<std::string> Vda5050Bridge::topics() const {
 Vda5050Bridge::Robot& Vda5050Bridge::add(const std::string& id, const std::string& serial) {
   Vda5050Options vehicle = options_.vehicle;
   vehicle.serial_number = serial;
-  if (vehicle.map_id.empty()) vehicle.map_id = frame_;
   by_serial_[serial] = id;
   const std::string topic = options_.interface_name + "/" + options_.version + "/" +
                             vehicle.manufacturer + "/" + serial + "/";
@@ -135,7 +134,7 @@ Vda5050Bridge::Robot& Vda5050Bridge::add(const std::string& id, const std::strin
 Vda5050Bridge::Robot* Vda5050Bridge::robotOf(const std::string& serial) {
   const auto found = by_serial_.find(serial);
   if (found != by_serial_.end()) return &robots_.at(found->second);
-  if (!options_.robots.empty()) return nullptr;
+  if (!options_.robots.empty() || !faultOfRobotId(serial).empty()) return nullptr;
   Robot& robot = add(serial, serial);
   ROS_INFO("robot %s reports for the first time", quote(serial).c_str());
   const auto route = routes_.find(serial);

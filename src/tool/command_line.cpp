@@ -92,10 +92,6 @@ bool CommandLine::has(const std::string& name) const {
   return values_.count(name) > 0 && !values_[name].defaulted();
 }
 
-bool CommandLine::declares(const std::string& name) const {
-  return options_.find_nothrow(name, false) != nullptr;
-}
-
 std::string CommandLine::text(const std::string& name) const {
   return values_[name].as<std::string>();
 }

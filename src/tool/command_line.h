@@ -28,8 +28,6 @@ class CommandLine {
   bool parse(const std::vector<std::string>& arguments);
 
   bool has(const std::string& name) const;
-  /// Whether the command offers the option.
-  bool declares(const std::string& name) const;
   /// The value of an option that was given.
   std::string text(const std::string& name) const;
   std::string text(const std::string& name, const std::string& fallback) const;

@@ -1,5 +1,4 @@
 #include <cstdint>
-#include <fstream>
 #include <iostream>
 #include <limits>
 #include <optional>
@@ -67,7 +66,6 @@ std::optional<std::uint32_t> agentsOf(const CommandLine& line) {
 class Conversion {
  public:
   explicit Conversion(const CommandLine& line) {
-    requireSuitable(line);
     const std::optional<std::uint32_t> agents = agentsOf(line);
     const bool of_poses = line.has("scen") && isPoseScenario(line.text("scen"));
     if (of_poses) robots_ = readPoseScenario(line.text("scen"), agents);
@@ -99,17 +97,6 @@ class Conversion {
   std::vector<PosedRobot> robots_;  ///< of a scenario of poses
 };
 
-void writeText(const std::string& output, const std::string& text) {
-  if (output == "-") {
-    std::cout << text;
-    return;
-  }
-  std::ofstream out(output, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw InputError(output + ": cannot be written in full");
-}
-
 }  // namespace
 
 ExitCode runConvert(const Call& call) {
@@ -132,9 +119,10 @@ ExitCode runConvert(const Call& call) {
   if (!line.parse(call.arguments)) return ExitCode::kOk;
   const std::string output = line.text("output", "-");
   const bool orders = asksForOrders(line);
+  requireSuitable(line);
   if (output != "-") requireWritable(output);
   if (orders) {
-    writeText(output, ordersOf(line));
+    writeText(output, ordersOf(line, readChosenMap(line)));
     return ExitCode::kOk;
   }
   Conversion(line).write(output);

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <iostream>
 
 #include "io/file_bytes.h"
 #include "split_mapf/core/error.h"
@@ -35,5 +36,13 @@ void requireReplaceable(const std::string& path) {
 }
 
 void writeTextFile(const std::string& path, const std::string& text) { writeFile(path, text); }
+
+void writeText(const std::string& path, const std::string& text) {
+  if (path == "-") {
+    std::cout << text;
+  } else {
+    writeTextFile(path, text);
+  }
+}
 
 }  // namespace split_mapf::tool

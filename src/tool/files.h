@@ -13,5 +13,7 @@ void requireReplaceable(const std::string& path);
 
 /// Writes a whole file. @throws InputError naming the file and the system's reason.
 void writeTextFile(const std::string& path, const std::string& text);
+/// The same; `-` stands for standard output.
+void writeText(const std::string& path, const std::string& text);
 
 }  // namespace split_mapf::tool

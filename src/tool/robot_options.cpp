@@ -76,9 +76,7 @@ std::shared_ptr<const Grid> readMapOfPoints(const std::string& path, const Robot
   if (!options.occupancy.unknown_is_free && options.ignore_specks == 0) return readMap(path);
   const OccupancyMap map = readMapInMetres(path, options);
   const ObstacleRaster raster = obstaclesOf(map, options);
-  std::vector<bool> free(raster.blocked.size());
-  for (std::size_t i = 0; i < free.size(); ++i) free[i] = raster.blocked[i] == 0;
-  return std::make_shared<const Grid>(raster.width, raster.height, free);
+  return std::make_shared<const Grid>(raster.width, raster.height, freeCells(raster));
 }
 
 OccupancyMap readMapInMetres(const std::string& path, const RobotOptions& options) {

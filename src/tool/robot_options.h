@@ -21,7 +21,7 @@ struct RobotOptions {
 };
 
 /// Declares what says which ground robots may stand on: --robot-radius, --clearance, --cell-size,
-/// --ignore-specks, --unknown-space.
+/// --ignore-specks, --unknown-space. Of the cell size only matters whether there is one.
 void declareRobotSize(CommandLine& line);
 /// Declares also how planning graphs are made: --snap-distance, --passages.
 void declareRobotOptions(CommandLine& line);

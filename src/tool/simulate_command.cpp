@@ -1,5 +1,4 @@
 #include <cstdint>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <limits>
@@ -107,17 +106,6 @@ std::string readFormat(const CommandLine& line) {
   return format;
 }
 
-void write(const std::string& file, const std::string& text) {
-  if (file == "-") {
-    std::cout << text;
-    return;
-  }
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw InputError(file + ": cannot be written in full");
-}
-
 void printSummary(const SimulationOptions& options, const SimulationReport& report) {
   const auto planned = static_cast<double>(report.planned_sum_of_costs);
   std::cout << std::fixed << std::setprecision(3) << toString(options.policy) << ": sum of costs "
@@ -161,7 +149,7 @@ ExitCode runSimulate(const Call& call) {
     } else {
       writeSimulationJson(text, task.instance, options, report);
     }
-    write(file, text.str());
+    writeText(file, text.str());
   }
   if (!line.has("quiet") && file != "-") printSummary(options, report);
   if (report.unfinished.empty()) return ExitCode::kOk;

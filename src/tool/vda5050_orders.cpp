@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "split_mapf/pipeline/fleet_execution.h"
 #include "split_mapf/pipeline/vda5050_vehicle.h"
 #include "split_mapf/roadmap/map_frame.h"
+#include "tool/disc_task.h"
 #include "tool/valid_plan.h"
 
 namespace split_mapf::tool {
@@ -31,13 +31,12 @@ class Placement {
       : cell_m_(map.resolution_m),
         width_(map.grid->width()),
         height_(map.grid->height()),
-        frame_{map.origin.x_m, map.origin.y_m, map.origin.yaw_rad, height_ * cell_m_} {}
+        frame_(frameOf(map)) {}
 
   PlacedRoute routeOf(const FleetExecution& fleet, const Grid& grid, std::uint32_t robot,
                       const std::string& plan_id) const {
     PlacedRoute route{plan_id, {}};
-    for (const RouteStep& step :
-         fleet.route(robot, std::numeric_limits<std::uint32_t>::max() / 2)) {
+    for (const RouteStep& step : fleet.route(robot, std::numeric_limits<std::uint32_t>::max())) {
       const Cell cell = grid.cellOf(step.vertex);
       const MapPoint at = toFrame(frame_, {(cell.x + 0.5) * cell_m_, (cell.y + 0.5) * cell_m_});
       const std::uint32_t index = (height_ - 1 - static_cast<std::uint32_t>(cell.y)) * width_ +
@@ -107,9 +106,7 @@ bool asksForOrders(const CommandLine& line) {
   return true;
 }
 
-std::string ordersOf(const CommandLine& line) {
-  std::optional<double> resolution_m;
-  if (line.has("resolution")) resolution_m = line.number("resolution", 1, 0);
+std::string ordersOf(const CommandLine& line, const OccupancyMap& map) {
   FleetOptions fleet_options;
   fleet_options.release = line.number("release", fleet_options.release, 0);
   fleet_options.release_ahead = static_cast<std::uint32_t>(
@@ -117,7 +114,6 @@ std::string ordersOf(const CommandLine& line) {
   Vda5050Options options;
   options.manufacturer = line.text("manufacturer", "split_mapf");
   options.map_id = line.text("map-id", options.map_id);
-  const OccupancyMap map = readOccupancyMap(line.text("map"), {}, resolution_m);
   const ValidPlan task = readValidPlan(line.text("map"), line.text("scen"), line.text("plan"));
   FleetExecution fleet(map.grid, idsOf(task.plan.paths.size()), task.plan, fleet_options, 0);
   fleet.advance(0);

@@ -51,7 +51,9 @@ TEST(RefineInTurns, FindsTheSameAtAnyNumberOfThreads) {
 TEST(RefineInTurns, EveryPlanIsBetterThanTheLast) {
   const Instance instance = crowded();
   Costs last = {~0ULL, ~0ULL};
-  for (const Plan& plan : firstBetter(instance, Objective::kMakespan, 2, 3)) {
+  const std::vector<Plan> found = firstBetter(instance, Objective::kMakespan, 2, 3);
+  ASSERT_EQ(found.size(), 3U);
+  for (const Plan& plan : found) {
     const Costs costs = {makespanOf(plan), sumOfCostsOf(plan)};
     EXPECT_LT(costs, last);
     last = costs;

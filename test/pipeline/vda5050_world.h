@@ -82,11 +82,6 @@ class OrderedRobot {
     state_.errors.clear();
     if (level) state_.errors.push_back({"trouble", "", *level});
   }
-  /// Somebody has it forget what it was to do, where it stands.
-  void forget() {
-    state_.nodes.clear();
-    places_.clear();
-  }
   double x() const { return x_; }
   double y() const { return y_; }
   int refused() const { return refused_; }

@@ -142,9 +142,7 @@ TEST(Roadmap, TheDiscCheckerFindsATurnThatIsTooTight) {
 
 TEST(Roadmap, RobotsWithoutSizeGetTheGridItself) {
   const DrawnRooms drawn = drawRooms(1, 3, 12, 0.05);
-  std::vector<bool> free(drawn.raster.blocked.size());
-  for (std::size_t i = 0; i < free.size(); ++i) free[i] = drawn.raster.blocked[i] == 0;
-  const Grid grid(drawn.raster.width, drawn.raster.height, free);
+  const Grid grid(drawn.raster.width, drawn.raster.height, freeCells(drawn.raster));
   const auto roadmap = buildRoadmap(drawn.raster, discsOf(0));
   ASSERT_TRUE(roadmap.has_value());
   const auto planning = gridOf(*roadmap);

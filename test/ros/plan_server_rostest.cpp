@@ -9,10 +9,7 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include <algorithm>
-#include <functional>
-#include <limits>
 #include <memory>
-#include <ostream>
 #include <set>
 
 #include "ros/planner_node.h"

@@ -41,6 +41,11 @@ TEST(Vda5050BridgeOptions, ThatCannotBeAreRefusedByName) {
   XmlRpc::XmlRpcValue twice;
   twice["robots"][0] = "r1=AGV";
   twice["robots"][1] = "r2=AGV";
+  XmlRpc::XmlRpcValue too_long;
+  too_long["robots"][0] = std::string(300, 'r');
+  XmlRpc::XmlRpcValue two_serials;
+  two_serials["robots"][0] = "r1=A";
+  two_serials["robots"][1] = "r1=B";
   XmlRpc::XmlRpcValue nameless;
   nameless["robots"][0] = "r1=";
   for (const auto& [name, parameters] :
@@ -50,6 +55,7 @@ TEST(Vda5050BridgeOptions, ThatCannotBeAreRefusedByName) {
         std::make_pair("~interface_name", parametersOf("interface_name", "+")),
         std::make_pair("~allowed_deviation", parametersOf("allowed_deviation", 0.0)),
         std::make_pair("~rate", parametersOf("rate", -1)), std::make_pair("~robots", twice),
+        std::make_pair("~robots", two_serials), std::make_pair("~robots", too_long),
         std::make_pair("~robots", nameless)}) {
     try {
       readVda5050BridgeOptions(parameters);

@@ -67,6 +67,7 @@ class Deadline {
   Deadline countedBy(std::shared_ptr<WorkClock> clock) const;
   /// The same flag, kFinishSec later: for what is done to a plan that was found in time, such as
   /// validating and writing it. All that is done together has to end by then.
+  /// Of measured time only.
   Deadline forFinish() const;
 
   bool expired() const { return stopRequested() || timeIsUp(); }

@@ -18,9 +18,8 @@ namespace split_mapf {
 ///   origin         [x, y, yaw] of the lower left corner in the map frame [m, m, rad]
 ///   occupancy      one byte a cell, row-major from the top, in base64: 0 .. 100 [%], 255 = unknown
 ///   starts, goals  [[x, y], ...], y from the top; null without a scenario of cells
-///   robots         of a scenario of poses only: [{id, start, goal, radius}, ...], an entry a
-///   robot;
-///                  start and goal are [x, y, yaw] in the map frame, radius null where none is said
+///   robots         of a scenario of poses only: [{id, start, goal, radius}, ...]; start
+///                  and goal are [x, y, yaw] in the map frame, radius null where none is said
 /// Without a map resolution, origin and occupancy are null.
 /// @param size  the map's. Cost: O(cells + robots).
 void writeMapJson(std::ostream& out, MapSize size, const std::optional<OccupancyMap>& map,

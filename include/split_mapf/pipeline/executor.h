@@ -39,8 +39,7 @@ class Executor {
 
   /// Runs all jobs on at most `threads` workers (0: all) and returns when the last has ended. The
   /// first exception that a job throws is rethrown here, after all others have ended. Thread-safe;
-  /// never call it from
-  /// inside a job of workers.
+  /// never call it from inside a job of workers.
   /// Once `deadline` has expired, the caller itself runs what no worker has begun, which is quick
   /// where the jobs poll the same deadline: other batches may keep the workers busy for long.
   void run(std::vector<Job> jobs, std::uint32_t threads = 0, const Deadline& deadline = {});

@@ -40,9 +40,9 @@ struct RefineOptions {
 /// sum of costs. Where makespan is no matter any more it goes through worse plans on the way, see
 /// Annealing; what it shows and returns never gets worse. Calls `improved` from the calling thread
 /// with every better plan, a few times a second at most. Returns the best plan. The clock cuts it,
-/// so two runs may differ. @pre the plan is valid and keeps what is reserved. Source: Li et al.,
-/// IJCAI 2021; chains after Glover 1996; optimistic commits after Chan et al. 2024 (arXiv
-/// 2402.01961).
+/// so two runs may differ, unless the deadline counts work and there is one thread. @pre the plan
+/// is valid and keeps what is reserved. Source: Li et al., IJCAI 2021; chains after Glover 1996;
+/// optimistic commits after Chan et al. 2024 (arXiv 2402.01961).
 Plan refine(const Instance& instance, Plan plan, const RefineOptions& options, Executor& executor,
             const Deadline& deadline, const std::function<void(const Plan&)>& improved);
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "split_mapf/core/deadline.h"
 #include "split_mapf/core/grid.h"
 
 namespace split_mapf {
@@ -36,6 +37,10 @@ ObstacleRaster rasterOf(std::uint32_t width, std::uint32_t height, const std::ve
 
 /// Frees every 8-connected blob of blocked cells that has at most `most_cells` cells: noise of a
 /// laser, or the legs of a table, which only the user can tell apart. Cost: O(cells).
-void freeSpecks(ObstacleRaster& raster, std::uint32_t most_cells);
+/// @throws Interrupted when the deadline has expired.
+void freeSpecks(ObstacleRaster& raster, std::uint32_t most_cells, const Deadline& deadline = {});
+
+/// Which cells of a raster are free.
+std::vector<bool> freeCells(const ObstacleRaster& raster);
 
 }  // namespace split_mapf

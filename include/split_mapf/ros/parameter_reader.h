@@ -28,8 +28,13 @@ class ParameterReader {
   std::int64_t readInteger(const std::string& name, std::int64_t default_value,
                            std::pair<std::int64_t, std::int64_t> range);
 
+  /// A finite number above 0, or from 0 on.
+  double readPositive(const std::string& name, double default_value, bool or_zero = false);
+
   /// Names of parameters that no read asked for.
   std::vector<std::string> unreadNames();
+  /// Warns of each of them.
+  void warnOfUnread();
 
  private:
   /// The value, or null when it is missing.
