@@ -3,41 +3,23 @@
 #include <yaml-cpp/yaml.h>
 
 #include <map>
+#include <set>
 #include <utility>
 
 #include "io/file_bytes.h"
 #include "io/line_reader.h"
+#include "split_mapf/core/grid_parts.h"
 #include "split_mapf/core/wording.h"
 
 namespace split_mapf {
 namespace {
 
 constexpr const char* kShape = "robots: [{start: [x, y], goals: [[x, y], ...]}, ...]";
-constexpr std::uint32_t kNoPart = 0xffffffffU;
-
-/// Which free cells are connected.
-std::vector<std::uint32_t> partsOf(const Graph& graph) {
-  std::vector<std::uint32_t> part(graph.size(), kNoPart);
-  std::vector<Vertex> queue;
-  for (Vertex first = 0; first < graph.size(); ++first) {
-    if (part[first] != kNoPart) continue;
-    part[first] = first;
-    queue.assign(1, first);
-    for (std::size_t head = 0; head < queue.size(); ++head) {
-      for (const Vertex u : graph.neighbours(queue[head])) {
-        if (part[u] != kNoPart) continue;
-        part[u] = first;
-        queue.push_back(u);
-      }
-    }
-  }
-  return part;
-}
 
 class GoalListReader {
  public:
   GoalListReader(const std::string& path, const Grid& grid)
-      : path_(path), grid_(grid), part_(partsOf(grid.graph())) {
+      : path_(path), grid_(grid), parts_(grid) {
     try {
       root_ = YAML::Load(readFile(path));
     } catch (const YAML::Exception& error) {
@@ -73,8 +55,12 @@ class GoalListReader {
   void readRobot(const YAML::Node& node, GoalLists& lists) {
     const std::string name = "robot " + std::to_string(lists.starts.size());
     if (!node.IsMap()) failAt(node.Mark(), name + ": read no robot, expected " + kShape);
+    std::set<std::string> keys;
     for (const auto& pair : node) {
       const std::string key = pair.first.IsScalar() ? pair.first.Scalar() : "";
+      if (!keys.insert(key).second) {
+        failAt(pair.first.Mark(), name + ": read the key " + quote(key) + " twice");
+      }
       if (key == "start" || key == "goals") continue;
       failAt(pair.first.Mark(),
              name + ": read the key " + quote(key) + ", expected start or goals");
@@ -98,7 +84,7 @@ class GoalListReader {
     for (const YAML::Node& goal : goals) {
       const std::string what = name + ": goal " + std::to_string(lists.goals.back().size());
       const Cell cell = readCell(goal, what);
-      if (part_[grid_.vertexAt(cell)] != part_[from]) {
+      if (parts_.partOf(grid_.vertexAt(cell)) != parts_.partOf(from)) {
         failAt(goal.Mark(), what + ": read " + toString(cell) +
                                 ", which is cut off from its start " + toString(start) +
                                 ", expected a cell that it can reach");
@@ -132,7 +118,7 @@ class GoalListReader {
 
   const std::string& path_;
   const Grid& grid_;
-  std::vector<std::uint32_t> part_;  // by vertex
+  const GridParts parts_;
   YAML::Node root_;
   std::map<Vertex, std::size_t> starts_;  // and the robots that start there
 };

@@ -2,33 +2,27 @@
 
 #include <algorithm>
 #include <string>
+#include <unordered_map>
 
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/grid_parts.h"
 #include "split_mapf/core/wording.h"
 
 namespace split_mapf {
 namespace {
 
-constexpr std::uint32_t kNoPart = 0xffffffffU;
-
-/// The connected parts of a graph; fills the part of each vertex.
-std::vector<std::vector<Vertex>> partsOf(const Graph& graph, std::vector<std::uint32_t>& part) {
+/// The connected parts of a grid, each in order; fills the part of each vertex.
+std::vector<std::vector<Vertex>> partsOf(const Grid& grid, std::vector<std::uint32_t>& part) {
+  const GridParts connected(grid);
   std::vector<std::vector<Vertex>> parts;
-  part.assign(graph.size(), kNoPart);
-  for (Vertex first = 0; first < graph.size(); ++first) {
-    if (part[first] != kNoPart) continue;
-    const auto number = static_cast<std::uint32_t>(parts.size());
-    std::vector<Vertex> vertices = {first};
-    part[first] = number;
-    for (std::size_t head = 0; head < vertices.size(); ++head) {
-      for (const Vertex u : graph.neighbours(vertices[head])) {
-        if (part[u] != kNoPart) continue;
-        part[u] = number;
-        vertices.push_back(u);
-      }
-    }
-    std::sort(vertices.begin(), vertices.end());
-    parts.push_back(std::move(vertices));
+  std::unordered_map<std::uint32_t, std::uint32_t> numbers;
+  part.resize(grid.size());
+  for (Vertex v = 0; v < part.size(); ++v) {
+    const auto next = static_cast<std::uint32_t>(parts.size());
+    const auto [number, is_new] = numbers.emplace(connected.partOf(v), next);
+    if (is_new) parts.emplace_back();
+    part[v] = number->second;
+    parts[part[v]].push_back(v);
   }
   return parts;
 }
@@ -45,7 +39,13 @@ GoalSource::GoalSource(const Grid& grid, const RollTask& task, std::uint64_t see
     throw InputError("there are goals of " + counted(goals_.size(), "robot") + " and starts of " +
                      std::to_string(task.starts.size()));
   }
-  if (random_) parts_ = partsOf(grid.graph(), part_);
+  for (const Vertex start : task.starts) {
+    if (start >= grid.size()) {
+      throw InputError("a start is vertex " + std::to_string(start) + "; the map has " +
+                       std::to_string(grid.size()));
+    }
+  }
+  if (random_) parts_ = partsOf(grid, part_);
 }
 
 Vertex GoalSource::next(std::uint32_t robot) {
@@ -63,7 +63,7 @@ Vertex GoalSource::next(std::uint32_t robot) {
 
 std::vector<Vertex> drawStarts(const Grid& grid, std::uint32_t robots, std::uint64_t seed) {
   std::vector<std::uint32_t> part;
-  std::vector<std::vector<Vertex>> parts = partsOf(grid.graph(), part);
+  std::vector<std::vector<Vertex>> parts = partsOf(grid, part);
   std::vector<Vertex> largest;
   for (std::vector<Vertex>& vertices : parts) {
     if (vertices.size() > largest.size()) largest.swap(vertices);

@@ -71,7 +71,7 @@ class RollRun {
  private:
   RollingAnswer planStep(std::uint32_t t, const Deadline& deadline) {
     const double begin = cpuSec();
-    const auto threads = static_cast<double>(options_.rolling.threads);
+    const auto threads = std::min(options_.rolling.threads, RollingOptions::kMostThreads);
     planner_.begin(question_);
     const double valid_ms = 1e3 * (cpuSec() - begin);
     if (options_.step_sec > 0) {
@@ -176,7 +176,8 @@ class RollRun {
     double sum = 0;
     std::size_t measured = 0;
     for (std::size_t i = 0; i < ways_.size(); i += stride, ++measured) {
-      sum += DistanceTable(grid_->graph(), ways_[i].second)(ways_[i].first);
+      const DistanceTable table(grid_->graph(), ways_[i].second, DistanceExtent::kOnDemand);
+      sum += table(ways_[i].first);
     }
     return sum / static_cast<double>(measured);
   }

@@ -153,7 +153,8 @@ class Rolling::Run {
         return;
       }
       std::shared_ptr<const Slope> slope = slopes_.find(goal);
-      if (!slope->reachable(from)) {
+      const bool is_barred = closed_[goal] && from != goal;
+      if (is_barred || !slope->reachable(from)) {
         if (itinerary.count == 0) cut_off_.push_back(robot);
         return;
       }
@@ -190,7 +191,9 @@ class Rolling::Run {
     for (std::uint32_t robot = 0; robot < question.robots.size(); ++robot) {
       const RollingRobot& asked = question.robots[robot];
       const auto escort = escorted.empty() ? escorted.end() : escorted.find(asked.id);
-      const Path* prefix = escort == escorted.end() ? &asked.prefix : escort->second;
+      // They agree as far as both go; what the robot is bound to beyond its escort is kept.
+      const bool is_led = escort != escorted.end() && escort->second->size() >= asked.prefix.size();
+      const Path* prefix = is_led ? escort->second : &asked.prefix;
       starts_.push_back({prefix, &asked.known});
       const auto free = static_cast<std::uint32_t>(prefix->size()) - 1;
       window_.itineraries[robot].free_from =

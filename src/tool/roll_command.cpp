@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "split_mapf/core/error.h"
+#include "split_mapf/core/grid_parts.h"
 #include "split_mapf/core/wording.h"
 #include "split_mapf/io/map_file.h"
 #include "split_mapf/io/movingai.h"
@@ -20,6 +21,7 @@
 #include "tool/command_line.h"
 #include "tool/commands.h"
 #include "tool/files.h"
+#include "tool/league_result.h"
 #include "tool/roll_output.h"
 #include "tool/stop_signals.h"
 
@@ -87,17 +89,6 @@ RollOptions readOptions(const CommandLine& line) {
   return options;
 }
 
-std::string readFormat(const CommandLine& line) {
-  std::string format = line.text("export", "");
-  if (!format.empty() && format != "lorr") {
-    throw OptionError("option --export: format " + quote(format) + " is unknown; lorr is expected");
-  }
-  if (!format.empty() && !line.has("output")) {
-    throw OptionError("option --export needs --output FILE: there is nowhere to write to");
-  }
-  return format;
-}
-
 std::vector<Vertex> verticesOf(const Grid& grid, const std::vector<Cell>& cells) {
   std::vector<Vertex> vertices;
   vertices.reserve(cells.size());
@@ -128,9 +119,19 @@ std::vector<Vertex> readStarts(const CommandLine& line, const Grid& grid, std::u
 void dealOut(const std::string& file, const Grid& grid, RollTask& task) {
   task.goals.resize(task.starts.size());
   const std::vector<std::vector<Cell>> tasks = readLeagueTasks(file, grid);
+  const GridParts parts(grid);
   for (std::size_t i = 0; i < tasks.size(); ++i) {
-    std::vector<Vertex>& goals = task.goals[i % task.starts.size()];
-    for (const Vertex v : verticesOf(grid, tasks[i])) goals.push_back(v);
+    const std::size_t robot = i % task.starts.size();
+    const Vertex start = task.starts[robot];
+    for (const Cell cell : tasks[i]) {
+      const Vertex goal = grid.vertexAt(cell);
+      if (parts.partOf(goal) != parts.partOf(start)) {
+        throw InputError(file + ": task " + std::to_string(i) + ": its cell " + toString(cell) +
+                         " is cut off from " + toString(grid.cellOf(start)) + ", where robot " +
+                         std::to_string(robot) + " starts, whose task it is");
+      }
+      task.goals[robot].push_back(goal);
+    }
   }
 }
 
@@ -182,7 +183,7 @@ ExitCode runRoll(const Call& call) {
   declareOptions(line);
   if (!line.parse(call.arguments)) return ExitCode::kOk;
   const RollOptions options = readOptions(line);
-  const std::string format = readFormat(line);
+  const bool for_league = asksForLeague(line);
   const std::string file = line.text("output", "");
   if (!file.empty() && file != "-") requireWritable(file);
   const double limit_sec = line.number("time-limit", std::numeric_limits<double>::infinity(), 0);
@@ -192,16 +193,12 @@ ExitCode runRoll(const Call& call) {
   const RollReport report = roll(grid, task, options, deadline);
   if (!file.empty()) {
     std::ostringstream text;
-    if (format == "lorr") {
+    if (for_league) {
       writeLeagueRollJson(text, *grid, report);
     } else {
       writeRollJson(text, *grid, options, report);
     }
-    if (file == "-") {
-      std::cout << text.str();
-    } else {
-      writeTextFile(file, text.str());
-    }
+    writeText(file, text.str());
   }
   if (!line.has("quiet") && file != "-") printSummary(report, options);
   if (report.steps == options.steps) return ExitCode::kOk;

@@ -5,26 +5,13 @@
 #include <string>
 #include <utility>
 
+#include "split_mapf/io/cell_paths.h"
+#include "tool/league_result.h"
+
 namespace split_mapf::tool {
 namespace {
 
 using Json = nlohmann::json;
-
-char letterOf(Cell from, Cell to) {
-  if (to.x > from.x) return 'R';
-  if (to.x < from.x) return 'L';
-  if (to.y > from.y) return 'D';
-  return to.y < from.y ? 'U' : 'W';
-}
-
-std::string lettersOf(const Grid& grid, const Path& path) {
-  std::string letters;
-  for (std::size_t t = 1; t < path.size(); ++t) {
-    if (t > 1) letters += ',';
-    letters += letterOf(grid.cellOf(path[t - 1]), grid.cellOf(path[t]));
-  }
-  return letters;
-}
 
 /// An array with a row a line.
 template <typename Rows, typename ToJson>
@@ -95,11 +82,12 @@ void writeLeagueRollJson(std::ostream& out, const Grid& grid, const RollReport& 
   for (const char* zero : {"numPlannerErrors", "numScheduleErrors", "numEntryTimeouts"}) {
     result[zero] = 0;
   }
+  const auto paths = cellPathsOf(grid, Plan{report.paths});
   std::uint32_t task = 0;
   for (std::size_t robot = 0; robot < report.paths.size(); ++robot) {
-    const Cell start = grid.cellOf(report.paths[robot].front());
+    const Cell start = paths[robot].front();
     result["start"].push_back({start.y, start.x, "E"});
-    const std::string letters = lettersOf(grid, report.paths[robot]);
+    const std::string letters = lettersOf(paths[robot], report.steps);
     result["actualPaths"].push_back(letters);
     result["plannerPaths"].push_back(letters);
     result["delayIntervals"].push_back(Json::array());

@@ -11,6 +11,7 @@
 #include "tool/command_line.h"
 #include "tool/commands.h"
 #include "tool/files.h"
+#include "tool/league_result.h"
 #include "tool/simulation_output.h"
 #include "tool/stop_signals.h"
 #include "tool/valid_plan.h"
@@ -95,17 +96,6 @@ SimulationOptions readOptions(const CommandLine& line) {
   return options;
 }
 
-std::string readFormat(const CommandLine& line) {
-  std::string format = line.text("export", "");
-  if (!format.empty() && format != "lorr") {
-    throw OptionError("option --export: format '" + format + "' is unknown; lorr is expected");
-  }
-  if (!format.empty() && !line.has("output")) {
-    throw OptionError("option --export needs --output FILE: there is nowhere to write to");
-  }
-  return format;
-}
-
 void printSummary(const SimulationOptions& options, const SimulationReport& report) {
   const auto planned = static_cast<double>(report.planned_sum_of_costs);
   std::cout << std::fixed << std::setprecision(3) << toString(options.policy) << ": sum of costs "
@@ -135,7 +125,7 @@ ExitCode runSimulate(const Call& call) {
   declareOptions(line);
   if (!line.parse(call.arguments)) return ExitCode::kOk;
   const SimulationOptions options = readOptions(line);
-  const std::string format = readFormat(line);
+  const bool for_league = asksForLeague(line);
   const std::string file = line.text("output", "");
   if (!file.empty() && file != "-") requireWritable(file);
   const double limit_sec = line.number("time-limit", std::numeric_limits<double>::infinity(), 0);
@@ -144,7 +134,7 @@ ExitCode runSimulate(const Call& call) {
   const SimulationReport report = simulate(task.instance, task.plan, options, deadline);
   if (!file.empty()) {
     std::ostringstream text;
-    if (format == "lorr") {
+    if (for_league) {
       writeLeagueJson(text, task.instance, report);
     } else {
       writeSimulationJson(text, task.instance, options, report);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "split_mapf/io/cell_paths.h"
+#include "tool/league_result.h"
 
 namespace split_mapf::tool {
 namespace {
@@ -17,22 +18,6 @@ using Json = nlohmann::json;
 Json steps(double value) {
   const auto whole = static_cast<std::uint64_t>(value);
   return static_cast<double>(whole) == value ? Json(whole) : Json(value);
-}
-
-char letterOf(Cell from, Cell to) {
-  if (to.x > from.x) return 'R';
-  if (to.x < from.x) return 'L';
-  if (to.y > from.y) return 'D';
-  return to.y < from.y ? 'U' : 'W';
-}
-
-std::string lettersOf(const std::vector<Cell>& path, std::size_t steps) {
-  std::string letters;
-  for (std::size_t t = 1; t <= steps; ++t) {
-    if (t > 1) letters += ',';
-    letters += t < path.size() ? letterOf(path[t - 1], path[t]) : 'W';
-  }
-  return letters;
 }
 
 }  // namespace

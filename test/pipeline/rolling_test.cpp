@@ -262,6 +262,16 @@ TEST(Rolling, ImprovesOnPriorityInheritance) {
   EXPECT_LE(better.free_flow_share, 1);
 }
 
+TEST(Rolling, AGoalThatIsBlockedWasWaitedFor) {
+  const GridPtr grid = test::gridFromAscii({".....", "....."});
+  RollingQuestion question;
+  question.robots = {robotAt(1, 0, {3}), robotAt(2, 5, {9})};
+  question.blocked = {3};
+  const RollingAnswer answer = answerOf(grid, question, windowOf(8));
+  EXPECT_EQ(answer.cut_off, std::vector<std::uint32_t>{0});
+  EXPECT_EQ(answer.paths[1][4], 9U);
+}
+
 TEST(Rolling, PassesGoalsThatAreTheSame) {
   const GridPtr grid = test::gridFromAscii({".....", ".....", "....."});
   RollTask task;

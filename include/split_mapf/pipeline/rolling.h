@@ -18,6 +18,7 @@ struct RollingOptions {
   std::uint64_t seed = 0;     ///< all randomness
   std::size_t cache_bytes = std::size_t{1} << 29U;  ///< of distances by goal; see Rolling
   static constexpr std::uint32_t kMostWindow = 31;
+  static constexpr std::uint32_t kMostThreads = 8;  ///< that are used: as many as try at a time
 };
 
 /// One robot of a fleet that never stops.
@@ -49,7 +50,7 @@ struct RollingAnswer {
   std::vector<std::uint32_t> reached;  ///< by robot: goals visited in the window
   std::vector<std::uint32_t> cut_off;  ///< robots whose first goal has no way; treated as idle
   std::uint64_t cost = 0;              ///< steps lost against robots alone, over all
-  std::uint64_t expansions = 0;        ///< states of all searches for this answer
+  std::uint64_t expansions = 0;        ///< states of all searches, but of escorts
   std::uint32_t escorts = 0;           ///< under way for robots that had gained nothing
 };
 
@@ -66,8 +67,9 @@ struct RollingAnswer {
 /// Everybody may stop at the end of its prefix: a question in which that would be a collision is
 /// refused. Distances are kept by goal, a byte a vertex, within `cache_bytes`, or what the robots
 /// need now. Not thread-safe. Source: windows after Li et al. (RHCR, AAAI 2021); the rest is ours.
-/// Cost: begin() O(robots * window), and a breadth-first search for each goal that is new; memory
-/// about 250 bytes a vertex, and 64 a thread.
+/// Cost: begin() O(robots * window), a breadth-first search for each goal that is new, and where a
+/// robot is stuck at most two searches of 400,000 expansions; memory about 250 bytes a vertex, and
+/// 104 a thread.
 class Rolling {
  public:
   /// @throws OptionError for a window or a number of threads out of range; InputError where a

@@ -30,12 +30,12 @@ struct EscortQuestion {
   std::uint32_t leader = 0;                   ///< index in the fleet
   const Slope* slope = nullptr;               ///< to the leader's goal
   std::uint32_t best = 0;                     ///< how near it has been [steps]
-  std::uint32_t radius = 4;                   ///< [steps] the region reaches so far
+  std::uint32_t radius = 0;                   ///< [steps] the region reaches so far
 };
 
 /// Finds an escort in the region around a robot. @return nothing when there is none, or not yet: a
 /// robot is bound to leave the region, or to come in. Source: LaCAM (Okumura, AAAI 2023) for the
-/// region. Cost: O(radius^2 + robots), and a search of kEscortExpansions at most.
+/// region. Cost: O(cells + robots), and a search of kEscortExpansions at most.
 std::optional<Escort> findEscort(const EscortQuestion& question);
 
 }  // namespace split_mapf::rolling

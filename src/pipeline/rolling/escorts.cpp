@@ -1,6 +1,7 @@
 #include "pipeline/rolling/escorts.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace split_mapf::rolling {
@@ -20,7 +21,19 @@ bool keepsTo(const RollingRobot& robot, const Path& path) {
   return robot.may_move;
 }
 
-bool goesOn(const Escort& escort, const IndexById& robots, const std::vector<bool>& closed) {
+/// Whether somebody else is bound to be in the region: one that the fleet was not told of before.
+bool isEntered(const Escort& escort, const RollingQuestion& fleet) {
+  const std::set<std::uint32_t> members(escort.members.begin(), escort.members.end());
+  const std::set<Vertex> region(escort.region.begin(), escort.region.end());
+  return std::any_of(fleet.robots.begin(), fleet.robots.end(), [&](const RollingRobot& robot) {
+    return members.count(robot.id) == 0 &&
+           std::any_of(robot.prefix.begin(), robot.prefix.end(),
+                       [&](Vertex v) { return region.count(v) > 0; });
+  });
+}
+
+bool goesOn(const Escort& escort, const RollingQuestion& fleet, const IndexById& robots,
+            const std::vector<bool>& closed) {
   for (std::size_t i = 0; i < escort.members.size(); ++i) {
     const auto robot = robots.find(escort.members[i]);
     if (robot == robots.end() || !keepsTo(*robot->second, escort.paths[i])) return false;
@@ -28,8 +41,8 @@ bool goesOn(const Escort& escort, const IndexById& robots, const std::vector<boo
       return false;
     }
   }
-  return std::none_of(escort.region.begin(), escort.region.end(),
-                      [&](Vertex v) { return closed[v]; });
+  return !isEntered(escort, fleet) && std::none_of(escort.region.begin(), escort.region.end(),
+                                                   [&](Vertex v) { return closed[v]; });
 }
 
 }  // namespace
@@ -46,7 +59,7 @@ void Escorts::goOn(const RollingQuestion& fleet, std::uint32_t steps,
     }
   }
   const auto over = std::remove_if(escorts_.begin(), escorts_.end(), [&](const Escort& escort) {
-    return !goesOn(escort, robots, closed);
+    return !goesOn(escort, fleet, robots, closed);
   });
   escorts_.erase(over, escorts_.end());
 }
@@ -59,14 +72,15 @@ void Escorts::add(const Grid& grid, const MoveGraph& graph, const RollingQuestio
   std::size_t searches = 0;
   std::size_t led = 0;  // cells in regions
   for (const Escort& escort : escorts_) led += escort.region.size();
+  if (stuck.empty()) return;
+  std::vector<bool> barred = closed;
+  bar(barred);
   for (const StuckRobot& robot : stuck) {
     if (searches == kMostSearches || led * kLeastShare > graph.size()) return;
     const std::uint32_t id = fleet.robots[robot.index].id;
     NextTry& next_try = next_try_[id];
     // One that has gained since begins anew.
     if (next_try.step + robot.steps < now + patience) next_try = NextTry();
-    std::vector<bool> barred = closed;
-    bar(barred);
     // Who is in a region already, or has just been looked at, waits.
     if (now < next_try.step || barred[fleet.robots[robot.index].prefix.back()]) continue;
     EscortQuestion question;
@@ -82,6 +96,7 @@ void Escorts::add(const Grid& grid, const MoveGraph& graph, const RollingQuestio
     std::optional<Escort> escort = findEscort(question);
     if (escort) {
       led += escort->region.size();
+      for (const Vertex v : escort->region) barred[v] = true;
       escorts_.push_back(std::move(*escort));
       next_try = NextTry();
     } else {

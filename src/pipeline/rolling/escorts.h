@@ -21,7 +21,8 @@ struct StuckRobot {
 class Escorts {
  public:
   /// So many steps are over: escorts go on as far as the fleet has kept to them, and end where the
-  /// leader has come to its target, a member is elsewhere, or a wall stands in the region.
+  /// leader has come to its target, a member is elsewhere, or a wall or somebody else is in the
+  /// region.
   void goOn(const RollingQuestion& fleet, std::uint32_t steps, const std::vector<bool>& closed);
   /// Finds escorts for those that are stuck, the longest first. A robot for which there is none is
   /// looked at again `patience` steps later, with a region that reaches twice as far, until it is

@@ -42,7 +42,6 @@ void Improver::begin(FleetWindow& window) {
   place_.assign(window.robots(), kNoRobot);
   touched_.assign(window.robots(), 0);
   delayed_.clear();
-  cost_ = 0;
   batch_ = 0;
   for (std::uint32_t robot = 0; robot < window.robots(); ++robot) {
     note(robot);
@@ -67,9 +66,6 @@ std::uint32_t Improver::whoIs(Vertex v, std::uint32_t t) const {
 }
 
 void Improver::setCost(std::uint32_t robot, std::uint32_t cost) {
-  const std::uint64_t weight = itinerary(robot).weight;
-  cost_ += weight * cost;
-  cost_ -= weight * costs_[robot];
   costs_[robot] = cost;
   if (cost > 0 && place_[robot] == kNoRobot) {
     place_[robot] = static_cast<std::uint32_t>(delayed_.size());

@@ -28,11 +28,9 @@ class Improver {
   void begin(FleetWindow& window);
   /// @return expansions done; 0 when nobody is delayed.
   std::uint64_t improve(std::uint64_t expansions, const Deadline& deadline);
-  /// Weighted, of all robots.
-  std::uint64_t cost() const { return cost_; }
 
  private:
-  static constexpr std::uint32_t kBatch = 8;
+  static constexpr std::uint32_t kBatch = RollingOptions::kMostThreads;
   static constexpr std::uint32_t kMostMembers = 8;
 
   struct Member {
@@ -89,7 +87,6 @@ class Improver {
   std::vector<std::uint64_t> touched_;  // by robot: the batch that changed its track
   std::vector<Change> changes_;
   std::uint64_t batch_ = 0;
-  std::uint64_t cost_ = 0;
 };
 
 }  // namespace split_mapf::rolling

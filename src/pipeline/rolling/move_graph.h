@@ -15,7 +15,7 @@ constexpr Slot kWait = 4;
 constexpr std::uint32_t kSlots = 4;
 
 /// A graph of at most four edges a vertex, laid out for searches that look at all ways out of a
-/// vertex at once. Immutable, hence safe to share. Cost: 32 bytes a vertex.
+/// vertex at once. Immutable, hence safe to share. Cost: 28 bytes a vertex.
 class MoveGraph {
  public:
   struct Node {

@@ -58,7 +58,6 @@ void SlopeCache::makeRoom() {
 }
 
 std::vector<std::uint8_t> SlopeCache::search(Vertex goal) {
-  ++searches_;
   findLevels(goal);
   std::vector<std::uint8_t> slope(graph_.size());
   for (Vertex v = 0; v < graph_.size(); ++v) {
@@ -73,8 +72,9 @@ std::vector<std::uint8_t> SlopeCache::search(Vertex goal) {
     for (std::uint32_t slot = 0; slot < kSlots; ++slot) {
       const Vertex u = node.next[slot];
       const std::uint32_t farther = (levels_[u] - own) & kLevelMask;
-      nearer |= (farther == kLevelMask ? 1U : 0U) << slot;
-      same |= (farther == 0 && u != v ? 1U : 0U) << slot;
+      const bool known = levels_[u] != kUnknown;  // else only a closed vertex is beside it
+      nearer |= (known && farther == kLevelMask ? 1U : 0U) << slot;
+      same |= (known && farther == 0 && u != v ? 1U : 0U) << slot;
     }
     slope[v] = static_cast<std::uint8_t>(nearer | same << kSlots);
   }

@@ -15,7 +15,8 @@ namespace split_mapf::rolling {
 /// farther. One look says what all moves from a vertex cost. Immutable, safe to share.
 class Slope {
  public:
-  static constexpr std::uint8_t kCutOff = 0xffU;
+  /// All ways are as good as waiting. No vertex with a way to the goal has that.
+  static constexpr std::uint8_t kCutOff = 0xf0U;
 
   explicit Slope(std::vector<std::uint8_t> bytes) : bytes_(std::move(bytes)) {}
   const std::uint8_t* data() const { return bytes_.data(); }
@@ -43,7 +44,6 @@ class SlopeCache {
   bool close(const std::vector<bool>& closed);
   std::shared_ptr<const Slope> find(Vertex goal);
   bool has(Vertex goal) const { return entries_.count(goal) > 0; }
-  std::uint64_t searches() const { return searches_; }
   std::size_t bytes() const { return entries_.size() * graph_.size(); }
 
  private:
@@ -62,7 +62,6 @@ class SlopeCache {
   bool any_closed_ = false;
   std::unordered_map<Vertex, Entry> entries_;
   std::uint64_t uses_ = 0;
-  std::uint64_t searches_ = 0;
   std::vector<std::uint8_t> levels_;  // of the search
   std::vector<Vertex> queue_;
 };

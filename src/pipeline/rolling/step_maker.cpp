@@ -62,7 +62,6 @@ bool StepMaker::move(std::uint32_t robot, const std::vector<StepWish>& wishes,
       continue;
     }
     if (step == Step::kSettled) return true;
-    if (step == Step::kLost) return false;
     frames_.pop_back();  // then whoever asked it to move tries something else
     if (frames_.empty()) return false;
   }
@@ -121,11 +120,9 @@ StepMaker::Step StepMaker::advance(const std::vector<StepWish>& wishes) {
     if (slot == kWait || settled) return Step::kSettled;
     return Step::kAsks;
   }
-  // It stays, if it may: who had asked for its place looks elsewhere.
-  const std::uint32_t comes = robot_next_[wish.at];
-  const bool asked = frames_.size() > 1 && frames_[frames_.size() - 2].robot == comes;
+  // It stays: who had asked for its place looks elsewhere. Nobody asked for that of the first one;
+  // when somebody bound comes there, nothing is left to try.
   moves_[frame.robot] = kWait;
-  if (comes != kNoRobot && !asked) return Step::kLost;
   robot_next_[wish.at] = frame.robot;
   return Step::kStuck;
 }

@@ -42,7 +42,7 @@ class StepMaker {
     std::uint8_t count;
     std::array<Slot, kSlots + 1> choices;
   };
-  enum class Step { kSettled, kStuck, kAsks, kLost };
+  enum class Step { kSettled, kStuck, kAsks };
 
   bool bind(const std::vector<StepWish>& wishes);
   bool move(std::uint32_t robot, const std::vector<StepWish>& wishes, const WindowTable& table);
