@@ -8,6 +8,7 @@
 #include "solver/search/apart.h"
 #include "solver/search/thread_team.h"
 #include "split_mapf/core/deadline.h"
+#include "split_mapf/pipeline/rolling.h"
 
 namespace split_mapf::rolling {
 
