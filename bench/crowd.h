@@ -5,10 +5,10 @@
 #include <numeric>
 #include <vector>
 
-#include "solver/search/path_table.h"
-#include "solver/search/safe_interval_search.h"
-#include "split_mapf/core/generator.h"
+#include "search/path_table.h"
+#include "search/safe_interval_search.h"
 #include "split_mapf/core/instance.h"
+#include "split_mapf/generate/generator.h"
 
 namespace split_mapf::bench {
 

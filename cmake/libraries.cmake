@@ -1,7 +1,8 @@
 # The ROS-free core library and the command.
 file(GLOB SPLIT_MAPF_CORE_SOURCES CONFIGURE_DEPENDS
-  src/core/*.cpp src/roadmap/*.cpp src/io/*.cpp src/solver/*.cpp src/solver/*/*.cpp src/split/*.cpp src/pipeline/*.cpp
-  src/pipeline/*/*.cpp)
+  src/core/*.cpp src/solvability/*.cpp src/parallel/*.cpp src/roadmap/*.cpp src/io/*.cpp src/search/*.cpp
+  src/generate/*.cpp src/solver/*.cpp src/solver/*/*.cpp src/split/*.cpp src/portfolio/*.cpp src/improve/*.cpp
+  src/pipeline/*.cpp src/pipeline/*/*.cpp src/fleet/*.cpp)
 # What links GLPK is no part of it: see ilp.cmake.
 list(FILTER SPLIT_MAPF_CORE_SOURCES EXCLUDE REGEX "/src/solver/(ilp\\.cpp|ilp/|available/)")
 # What `auto` expects of each method is data, built in so that the library finds it anywhere.

@@ -1,22 +1,32 @@
-# The ROS side: conversions and servers as a library, the nodes, installation.
-file(GLOB SPLIT_MAPF_ROS_SOURCES CONFIGURE_DEPENDS src/ros/*.cpp)
-split_mapf_in_units(split_mapf_ros SPLIT_MAPF_ROS_SOURCES)
-add_library(split_mapf_ros ${SPLIT_MAPF_ROS_SOURCES})
-#catkin_lint: ignore_once external_interface_path
-target_include_directories(split_mapf_ros SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})
-target_link_libraries(split_mapf_ros PUBLIC split_mapf_core ${catkin_LIBRARIES})
-add_dependencies(split_mapf_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
-split_mapf_compile_options(split_mapf_ros)
+# The ROS side: conversions as a library for others, too; the rooms of the nodes; the nodes; installation.
+function(split_mapf_add_ros_library ros_library room)
+  file(GLOB sources CONFIGURE_DEPENDS src/ros/${room}/*.cpp)
+  split_mapf_in_units(${ros_library} sources)
+  add_library(${ros_library} ${ARGN} ${sources})
+  target_include_directories(${ros_library} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+  #catkin_lint: ignore_once external_interface_path
+  target_include_directories(${ros_library} SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})
+  target_link_libraries(${ros_library} PUBLIC split_mapf_core ${catkin_LIBRARIES})
+  add_dependencies(${ros_library} ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
+  split_mapf_compile_options(${ros_library})
+endfunction()
+
+split_mapf_add_ros_library(split_mapf_ros convert)
+foreach(room server replay fleet)
+  split_mapf_add_ros_library(split_mapf_ros_${room} ${room} STATIC)
+  target_link_libraries(split_mapf_ros_${room} PUBLIC split_mapf_ros)
+endforeach()
 
 foreach(node planner_node replay_node executor_node fake_robots_node)
   add_executable(${node} src/node/${node}.cpp src/node/run_node.cpp)
   target_include_directories(${node} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
-  target_link_libraries(${node} PRIVATE split_mapf_ros)
   split_mapf_compile_options(${node})
 endforeach()
 target_sources(planner_node PRIVATE src/node/memory_return.cpp)
-target_link_libraries(planner_node PRIVATE split_mapf_available_solvers)
-target_link_libraries(executor_node PRIVATE split_mapf_available_solvers)
+target_link_libraries(planner_node PRIVATE split_mapf_ros_server split_mapf_available_solvers)
+target_link_libraries(replay_node PRIVATE split_mapf_ros_replay)
+target_link_libraries(executor_node PRIVATE split_mapf_ros_fleet split_mapf_available_solvers)
+target_link_libraries(fake_robots_node PRIVATE split_mapf_ros_fleet)
 
 # The bridge to robots that speak VDA 5050 over MQTT, where libmosquitto is.
 find_path(MOSQUITTO_INCLUDE_DIR mosquitto.h)
@@ -27,7 +37,7 @@ if(MOSQUITTO_INCLUDE_DIR AND MOSQUITTO_LIBRARY)
     src/node/vda5050_bridge_node.cpp src/node/mqtt_client.cpp src/node/run_node.cpp)
   target_include_directories(vda5050_bridge_node
     PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src ${MOSQUITTO_INCLUDE_DIR})
-  target_link_libraries(vda5050_bridge_node PRIVATE split_mapf_ros ${MOSQUITTO_LIBRARY})
+  target_link_libraries(vda5050_bridge_node PRIVATE split_mapf_ros_fleet ${MOSQUITTO_LIBRARY})
   split_mapf_compile_options(vda5050_bridge_node)
   install(TARGETS vda5050_bridge_node RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 else()

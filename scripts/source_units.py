@@ -13,6 +13,7 @@ import argparse
 import glob
 import os
 import re
+import shlex
 
 TYPE = re.compile(r"(?:template.*> )?(?:class|struct|enum class|enum|union) (\w+)")
 # The name of a function, variable or constant: what stands before its arguments or value.
@@ -60,6 +61,30 @@ def included_sources(unit_file):
     with open(unit_file, encoding="utf-8") as lines:
         names = re.findall(r'^#include "(.*)"$', lines.read(), flags=re.M)
     return [os.path.normpath(os.path.join(os.path.dirname(unit_file), name)) for name in names]
+
+
+def compile_flags(database):
+    """Source -> the arguments that clang needs, from a compilation database (of units, maybe)."""
+    flags = {}
+    for entry in database:
+        words = shlex.split(entry["command"])
+        while words[0].startswith("-") or not re.search(r"(\+\+|cc|cxx|clang)[-\d.]*$", words[0]) \
+                or os.path.basename(words[0]) == "ccache":
+            words.pop(0)
+        kept = []
+        skip = False
+        for word in words[1:]:
+            if skip or word == "-c" or word == entry["file"]:
+                skip = False
+            elif word == "-o":
+                skip = True
+            elif not re.match(r"-D\w+_EXPORTS$", word) and word not in ("-fPIC", "-fPIE"):
+                kept.append(word)
+        file = os.path.realpath(entry["file"])
+        is_unit = os.path.basename(os.path.dirname(os.path.dirname(file))) == "units"
+        for source in included_sources(file) if is_unit else [file]:
+            flags.setdefault(source, tuple(kept))
+    return flags
 
 
 def write_units(folder, size, sources):

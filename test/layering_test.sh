@@ -1,24 +1,39 @@
 #!/usr/bin/env bash
-# Checks who includes and links whom, as docs and headers promise:
-#   core at the ground; roadmap, solver, split side by side above it, never seeing each other; io
-#   above core and roadmap; then pipeline; then ros and tool; node on top of ros. Only ros and node know ROS, only one wrapper in
-#   the ILP solver knows GLPK, only one in a node MQTT, public headers include no private ones, and the core library links neither.
+# Checks who includes and links whom, as docs and headers promise: the rooms below, each of which may
+#   include what its line names. Only ros and node know ROS, only one wrapper in the ILP solver knows
+#   GLPK, only one in a node MQTT, public headers include no private ones, and the core library links
+#   neither.
 # The checker first has to find violations that are planted in small trees of its own.
 #
 # usage: test/layering_test.sh [REPOSITORY]
 set -euo pipefail
 
-# Layers that a layer may include.
+# Rooms that a room may include, besides itself. A room of `ros` is a folder of src/ros; what is
+# public of ros, include/split_mapf/ros, belongs to ros/convert.
+readonly ground='core solvability parallel'
+readonly files="$ground roadmap io generate"
+readonly searches="$ground search solver"
+readonly planning="$files search solver split portfolio improve pipeline fleet"
 declare -rA allowed=(
-  [core]="core"
-  [roadmap]="core roadmap"
-  [io]="core roadmap io"
-  [solver]="core solver"
-  [split]="core split"
-  [pipeline]="core roadmap io solver split pipeline"
-  [ros]="core roadmap io solver split pipeline ros"
-  [tool]="core roadmap io solver split pipeline tool"
-  [node]="core roadmap io solver split pipeline ros node"
+  [core]=''
+  [solvability]='core'
+  [parallel]='core'
+  [roadmap]='core'
+  [io]='core roadmap'
+  [generate]='core solvability roadmap io'
+  [search]='core parallel'
+  [solver]="$ground search"
+  [split]='core solvability'
+  [portfolio]="$searches split"
+  [improve]="$searches split portfolio"
+  [pipeline]="$files $searches split portfolio improve"
+  [fleet]="$files $searches split portfolio improve pipeline"
+  [tool]="$planning"
+  [ros/convert]="$planning"
+  [ros/server]="$planning ros/convert"
+  [ros/replay]="$planning ros/convert"
+  [ros/fleet]="$planning ros/convert"
+  [node]="$planning ros/convert ros/server ros/replay ros/fleet"
 )
 readonly ros_packages='actionlib|catkin|diagnostic_updater|dynamic_reconfigure|interactive_markers|message_filters|nodelet|pluginlib|ros|rosbag|roscpp|rosconsole|rviz|tf|tf2|tf2_ros|tf2_[a-z_]*|[a-z_]*_msgs'
 
@@ -29,17 +44,32 @@ violations() {
 }
 
 include_violations() {
-  local root=$1 file line header layer
+  local root=$1 file line header layer room
   while IFS=: read -r file line header; do
     file=${file#"$root"/}
-    layer=
-    if [[ $file =~ ^(include/split_mapf|src)/([^/]+)/ ]]; then layer=${BASH_REMATCH[2]}; fi
-    if [[ -z $layer || -z ${allowed[$layer]:-} ]]; then
+    find_room "${file#include/split_mapf/}"
+    layer=$room
+    if [[ -z $layer ]]; then
       echo "$file:$line: lies in no layer"
       continue
     fi
     judge_include "$file:$line" "$layer" "$header"
   done < <(includes_of "$root")
+}
+
+# Sets `room` to the room of a source or header, given with or without src/; to nothing where it lies
+# in none.
+find_room() {
+  local path=${1#src/}
+  room=
+  if [[ $path =~ ^ros/([^/]+)/ ]]; then
+    room=ros/${BASH_REMATCH[1]}
+  elif [[ $path == ros/* ]]; then
+    room=ros/convert
+  elif [[ $path == */* ]]; then
+    room=${path%%/*}
+  fi
+  if [[ -n $room && ! -v allowed[$room] ]]; then room=; fi
 }
 
 # FILE:LINE:HEADER of every include directive; HEADER keeps its quotes or brackets.
@@ -53,8 +83,8 @@ includes_of() {
 }
 
 judge_include() {
-  local place=$1 layer=$2 header=${3:1:-1} target
-  if [[ $layer != ros && $layer != node ]] &&
+  local place=$1 layer=$2 header=${3:1:-1} target room
+  if [[ $layer != ros/* && $layer != node ]] &&
     [[ $header =~ ^($ros_packages)/ || $header =~ ^split_mapf/[A-Z] ]]; then
     echo "$place: $layer includes the ROS header $header"
     return
@@ -71,10 +101,10 @@ judge_include() {
     echo "$place: a public header includes the private header $header"
     return
   fi
-  target=${header#split_mapf/}
-  [[ $target == */* ]] || return 0
-  target=${target%%/*}
-  [[ -n ${allowed[$target]:-} && $3 == \"* ]] || return 0
+  [[ $3 == \"* ]] || return 0
+  find_room "${header#split_mapf/}"
+  target=$room
+  [[ -n $target && $target != "$layer" ]] || return 0
   [[ " ${allowed[$layer]} " == *" $target "* ]] || echo "$place: $layer includes $target: $header"
 }
 
@@ -83,7 +113,7 @@ link_violations() {
   while IFS= read -r statement; do
     case $statement in
       link_libraries\(* | *include_directories\(*catkin_INCLUDE_DIRS*)
-        [[ $statement == target_include_directories\(split_mapf_ros* ||
+        [[ $statement == target_include_directories\(\$\{ros_library\}* ||
           $statement == target_include_directories\(*_test* ]] ||
           echo "CMake: for every target, or for one without ROS: $statement"
         ;;
@@ -119,20 +149,25 @@ write_clean_tree() {
   local root=$1 layer
   rm -rf "$root"
   for layer in "${!allowed[@]}"; do
+    [[ $layer != ros/* ]] || continue
     mkdir -p "$root/include/split_mapf/$layer" "$root/src/$layer"
     printf '#pragma once\n#include <vector>\n#include "split_mapf/core/grid.h"\n' \
       > "$root/include/split_mapf/$layer/room.h"
     printf '#include "split_mapf/%s/room.h"\n#include "%s/private_room.h"\n' "$layer" "$layer" \
       > "$root/src/$layer/room.cpp"
   done
-  printf '#include <ros/ros.h>\n#include <split_mapf/PlanPathsAction.h>\n' > "$root/src/ros/server.cpp"
-  mkdir -p "$root/src/solver/ilp" "$root/cmake"
+  mkdir -p "$root/src/solver/ilp" "$root/cmake" "$root/src/ros/server" "$root/src/ros/replay" \
+    "$root/include/split_mapf/ros"
+  printf '#include <ros/ros.h>\n#include <split_mapf/PlanPathsAction.h>\n' > "$root/src/ros/server/room.cpp"
+  printf '#include "split_mapf/ros/room.h"\n' > "$root/src/ros/replay/room.cpp"
+  printf '#include "split_mapf/pipeline/room.h"\n' > "$root/include/split_mapf/ros/room.h"
   echo '#include <glpk.h>' > "$root/src/solver/ilp/glpk_model.cpp"
   cat > "$root/cmake/libraries.cmake" << 'CMAKE'
 add_library(split_mapf_core ${SOURCES})  # links no catkin_LIBRARIES
 target_link_libraries(split_mapf_core
   PUBLIC Threads::Threads)
 target_link_libraries(split_mapf_ros PUBLIC split_mapf_core ${catkin_LIBRARIES})
+target_include_directories(${ros_library} SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})
 target_link_libraries(split_mapf_ilp PRIVATE ${GLPK_LIBRARIES})
 CMAKE
 }
@@ -169,7 +204,14 @@ test_the_checker() {
   require_found include/split_mapf/io/room.h '#include "split_mapf/pipeline/room.h"'
   require_found src/pipeline/room.cpp '#include "split_mapf/ros/room.h"'
   require_found src/tool/room.cpp '#include "split_mapf/ros/room.h"'
-  require_found src/ros/room.cpp '#include "tool/private_room.h"'
+  require_found src/ros/server/room.cpp '#include "tool/private_room.h"'
+  require_found src/ros/server/room.cpp '#include "ros/replay/room.h"'
+  require_found include/split_mapf/ros/room.h '#include "ros/server/room.h"'
+  require_found src/pipeline/room.cpp '#include "ros/server/room.h"'
+  require_found src/pipeline/room.cpp '#include "fleet/private_room.h"'
+  require_found src/improve/room.cpp '#include "split_mapf/pipeline/room.h"'
+  require_found src/search/room.cpp '#include "split_mapf/solver/room.h"'
+  require_found src/portfolio/room.cpp '#include "improve/private_room.h"'
   require_found src/core/room.cpp '#include <ros/ros.h>'
   require_found src/tool/room.cpp '#include <nav_msgs/OccupancyGrid.h>'
   require_found src/pipeline/room.cpp '#include <tf2_geometry_msgs/tf2_geometry_msgs.h>'
@@ -177,7 +219,7 @@ test_the_checker() {
   require_found src/pipeline/room.cpp '#include <glpk.h>'
   require_found src/solver/room.cpp '#include "glpk.h"'
   require_found src/solver/ilp/master.cpp '#include <glpk.h>'
-  require_found src/ros/room.cpp '#include <mosquitto.h>'
+  require_found src/ros/server/room.cpp '#include <mosquitto.h>'
   require_found include/split_mapf/core/room.h '#include "core/private_room.h"'
   require_found src/stray.cpp '#include <vector>'
   require_found cmake/libraries.cmake 'target_link_libraries(split_mapf_core PUBLIC ${catkin_LIBRARIES})'

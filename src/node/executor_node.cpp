@@ -8,14 +8,14 @@
 #include <ros/ros.h>
 
 #include "node/run_node.h"
+#include "ros/convert/map_source.h"
+#include "ros/convert/pose_transformer.h"
+#include "ros/fleet/fleet_diagnostics.h"
+#include "ros/fleet/fleet_server.h"
 #include "solver/available/available_solvers.h"
 #include "split_mapf/core/error.h"
-#include "split_mapf/pipeline/executor.h"
+#include "split_mapf/parallel/executor.h"
 #include "split_mapf/pipeline/planner.h"
-#include "split_mapf/ros/fleet_diagnostics.h"
-#include "split_mapf/ros/fleet_server.h"
-#include "split_mapf/ros/map_source.h"
-#include "split_mapf/ros/pose_transformer.h"
 
 namespace {
 

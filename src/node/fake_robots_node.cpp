@@ -3,7 +3,7 @@
 #include <ros/ros.h>
 
 #include "node/run_node.h"
-#include "split_mapf/ros/fake_robots.h"
+#include "ros/fleet/fake_robots.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <ros/node_handle.h>
 #include <ros/wall_timer.h>
 
-#include "split_mapf/ros/plan_server.h"
+#include "ros/server/plan_server.h"
 
 namespace split_mapf {
 

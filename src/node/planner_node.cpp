@@ -8,18 +8,18 @@
 
 #include "node/memory_return.h"
 #include "node/run_node.h"
+#include "ros/convert/map_source.h"
+#include "ros/convert/options_loader.h"
+#include "ros/convert/pose_transformer.h"
+#include "ros/server/goal_planner.h"
+#include "ros/server/plan_publisher.h"
+#include "ros/server/plan_server.h"
+#include "ros/server/plan_services.h"
+#include "ros/server/server_diagnostics.h"
 #include "solver/available/available_solvers.h"
 #include "split_mapf/core/error.h"
-#include "split_mapf/pipeline/executor.h"
+#include "split_mapf/parallel/executor.h"
 #include "split_mapf/pipeline/planner.h"
-#include "split_mapf/ros/goal_planner.h"
-#include "split_mapf/ros/map_source.h"
-#include "split_mapf/ros/options_loader.h"
-#include "split_mapf/ros/plan_publisher.h"
-#include "split_mapf/ros/plan_server.h"
-#include "split_mapf/ros/plan_services.h"
-#include "split_mapf/ros/pose_transformer.h"
-#include "split_mapf/ros/server_diagnostics.h"
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include <ros/ros.h>
 
 #include "node/run_node.h"
-#include "split_mapf/ros/replay.h"
+#include "ros/replay/replay.h"
 
 namespace {
 

@@ -2,7 +2,7 @@
 
 #include <exception>
 
-#include "split_mapf/ros/end_signal.h"
+#include "ros/server/end_signal.h"
 
 namespace split_mapf {
 

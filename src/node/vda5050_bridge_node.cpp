@@ -6,7 +6,7 @@
 
 #include "node/mqtt_client.h"
 #include "node/run_node.h"
-#include "split_mapf/ros/vda5050_bridge.h"
+#include "ros/fleet/vda5050_bridge.h"
 
 namespace {
 

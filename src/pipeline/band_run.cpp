@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "pipeline/plan_run.h"
-#include "pipeline/solver_choice.h"
 #include "pipeline/stage_words.h"
+#include "portfolio/solver_choice.h"
 #include "split_mapf/core/validate.h"
 
 namespace split_mapf {

@@ -6,8 +6,8 @@
 
 #include "pipeline/checked_request.h"
 #include "pipeline/run_log.h"
-#include "split_mapf/core/solvability.h"
 #include "split_mapf/core/way_band.h"
+#include "split_mapf/solvability/solvability.h"
 
 namespace split_mapf {
 

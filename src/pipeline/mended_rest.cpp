@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "search/path_table.h"
 #include "solver/prioritized/effort.h"
 #include "solver/prioritized/repair.h"
-#include "solver/search/path_table.h"
 
 namespace split_mapf {
 namespace {

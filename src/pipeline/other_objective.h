@@ -4,7 +4,7 @@
 
 #include "pipeline/checked_request.h"
 #include "split_mapf/core/instance.h"
-#include "split_mapf/pipeline/executor.h"
+#include "split_mapf/parallel/executor.h"
 
 namespace split_mapf {
 

@@ -6,7 +6,7 @@
 #include <new>
 #include <utility>
 
-#include "pipeline/solver_choice.h"
+#include "portfolio/solver_choice.h"
 
 namespace split_mapf {
 namespace {

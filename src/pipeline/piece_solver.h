@@ -7,7 +7,7 @@
 #include "pipeline/checked_request.h"
 #include "pipeline/run_log.h"
 #include "split_mapf/core/plan_report.h"
-#include "split_mapf/pipeline/executor.h"
+#include "split_mapf/parallel/executor.h"
 #include "split_mapf/split/piece_tree.h"
 
 namespace split_mapf {

@@ -6,20 +6,20 @@
 #include <stdexcept>
 #include <utility>
 
-#include "pipeline/auto_choice.h"
+#include "improve/refine_in_turns.h"
+#include "improve/settlement.h"
 #include "pipeline/other_objective.h"
-#include "pipeline/refine_in_turns.h"
-#include "pipeline/settlement.h"
 #include "pipeline/solved_text.h"
-#include "pipeline/solver_choice.h"
 #include "pipeline/stage_words.h"
 #include "pipeline/unsolved_text.h"
-#include "solver/search/replan_singly.h"
-#include "solver/search/straighten.h"
+#include "portfolio/auto_choice.h"
+#include "portfolio/solver_choice.h"
+#include "search/replan_singly.h"
+#include "search/straighten.h"
 #include "split_mapf/core/compaction.h"
 #include "split_mapf/core/validate.h"
 #include "split_mapf/core/wording.h"
-#include "split_mapf/pipeline/refine.h"
+#include "split_mapf/improve/refine.h"
 
 namespace split_mapf {
 namespace {

@@ -8,8 +8,8 @@
 #include "pipeline/repair_loop.h"
 #include "pipeline/run_log.h"
 #include "pipeline/step_table.h"
-#include "split_mapf/core/solvability.h"
-#include "split_mapf/pipeline/instance_features.h"
+#include "split_mapf/portfolio/instance_features.h"
+#include "split_mapf/solvability/solvability.h"
 #include "split_mapf/split/splitter.h"
 #include "split_mapf/split/time_split.h"
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <utility>
 
-#include "solver/search/departures.h"
-#include "solver/search/neighbourhood_search.h"
-#include "solver/search/replan_singly.h"
-#include "solver/search/ring_breaking.h"
+#include "search/departures.h"
+#include "search/neighbourhood_search.h"
+#include "search/replan_singly.h"
+#include "search/ring_breaking.h"
 #include "split_mapf/core/plan.h"
 #include "split_mapf/core/validate.h"
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "solver/search/placement.h"
-#include "solver/search/reserved_paths.h"
-#include "solver/search/robot_order.h"
+#include "search/placement.h"
+#include "search/robot_order.h"
+#include "solver/reserved_paths.h"
 #include "split_mapf/core/option_values.h"
 #include "split_mapf/core/random.h"
 

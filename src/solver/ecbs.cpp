@@ -5,11 +5,11 @@
 #include <string>
 #include <utility>
 
+#include "search/replan_singly.h"
+#include "search/robot_order.h"
 #include "solver/ecbs/ecbs_run.h"
 #include "solver/ecbs/robot_groups.h"
 #include "solver/ecbs/settings.h"
-#include "solver/search/replan_singly.h"
-#include "solver/search/robot_order.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/option_values.h"
 

@@ -11,8 +11,8 @@
 #include "solver/ilp/upper_bound.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/option_values.h"
-#include "split_mapf/core/solvability.h"
 #include "split_mapf/core/wording.h"
+#include "split_mapf/solvability/solvability.h"
 
 namespace split_mapf {
 namespace {

@@ -4,12 +4,12 @@
 #include <string>
 #include <utility>
 
+#include "search/replan_singly.h"
 #include "solver/joint/joint_groups.h"
 #include "solver/joint/settings.h"
-#include "solver/search/replan_singly.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/option_values.h"
-#include "split_mapf/core/solvability.h"
+#include "split_mapf/solvability/solvability.h"
 
 namespace split_mapf {
 namespace {

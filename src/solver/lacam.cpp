@@ -6,12 +6,12 @@
 #include <string>
 #include <utility>
 
+#include "search/replan_singly.h"
 #include "solver/lacam/lacam_search.h"
 #include "solver/lacam/settings.h"
-#include "solver/search/replan_singly.h"
 #include "split_mapf/core/compaction.h"
 #include "split_mapf/core/option_values.h"
-#include "split_mapf/core/solvability.h"
+#include "split_mapf/solvability/solvability.h"
 
 namespace split_mapf {
 namespace {

@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "search/placement.h"
+#include "search/replan_singly.h"
+#include "search/robot_order.h"
 #include "solver/prioritized/effort.h"
 #include "solver/prioritized/repair.h"
-#include "solver/search/placement.h"
-#include "solver/search/replan_singly.h"
-#include "solver/search/reserved_paths.h"
-#include "solver/search/robot_order.h"
+#include "solver/reserved_paths.h"
 #include "split_mapf/core/option_values.h"
 #include "split_mapf/core/random.h"
 #include "split_mapf/core/wording.h"

@@ -8,7 +8,7 @@
 
 #include "split/region_grids.h"
 #include "split/region_states.h"
-#include "split_mapf/core/solvability.h"
+#include "split_mapf/solvability/solvability.h"
 #include "split_mapf/split/space_split.h"
 
 namespace split_mapf {

@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "split_mapf/core/instance.h"
-#include "split_mapf/core/solvability.h"
 #include "split_mapf/io/map_file.h"
 #include "split_mapf/io/movingai.h"
+#include "split_mapf/solvability/solvability.h"
 #include "tool/command_line.h"
 #include "tool/commands.h"
 

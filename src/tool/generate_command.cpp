@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "split_mapf/core/error.h"
-#include "split_mapf/core/generator.h"
 #include "split_mapf/core/wording.h"
+#include "split_mapf/generate/generator.h"
+#include "split_mapf/generate/pose_generator.h"
 #include "split_mapf/io/movingai.h"
 #include "split_mapf/io/pose_scenario.h"
 #include "split_mapf/pipeline/disc_problem.h"
-#include "split_mapf/pipeline/pose_generator.h"
 #include "tool/command_line.h"
 #include "tool/commands.h"
 #include "tool/disc_task.h"

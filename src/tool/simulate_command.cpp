@@ -7,7 +7,7 @@
 
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/instance.h"
-#include "split_mapf/pipeline/simulation.h"
+#include "split_mapf/fleet/simulation.h"
 #include "tool/command_line.h"
 #include "tool/commands.h"
 #include "tool/files.h"

@@ -3,7 +3,7 @@
 #include <iosfwd>
 
 #include "split_mapf/core/instance.h"
-#include "split_mapf/pipeline/simulation.h"
+#include "split_mapf/fleet/simulation.h"
 
 namespace split_mapf::tool {
 

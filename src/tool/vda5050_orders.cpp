@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "split_mapf/core/error.h"
+#include "split_mapf/fleet/fleet_execution.h"
+#include "split_mapf/fleet/vda5050_vehicle.h"
 #include "split_mapf/io/map_file.h"
 #include "split_mapf/io/vda5050.h"
-#include "split_mapf/pipeline/fleet_execution.h"
-#include "split_mapf/pipeline/vda5050_vehicle.h"
 #include "split_mapf/roadmap/map_frame.h"
 #include "tool/disc_task.h"
 #include "tool/valid_plan.h"

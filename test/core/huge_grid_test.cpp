@@ -9,14 +9,14 @@
 #include <utility>
 #include <vector>
 
-#include "core/bridge_structure.h"
+#include "solvability/bridge_structure.h"
 #include "split_mapf/core/cell_numbering.h"
 #include "split_mapf/core/distance_table.h"
 #include "split_mapf/core/grid_parts.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/shortest_way.h"
-#include "split_mapf/core/solvability.h"
 #include "split_mapf/core/way_band.h"
+#include "split_mapf/solvability/solvability.h"
 
 namespace split_mapf {
 namespace {

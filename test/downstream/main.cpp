@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "split_mapf/PlanPathsAction.h"
-#include "split_mapf/pipeline/executor.h"
+#include "split_mapf/parallel/executor.h"
 #include "split_mapf/pipeline/planner.h"
 
 int main() {

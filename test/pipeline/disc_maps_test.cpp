@@ -11,10 +11,10 @@
 
 #include "solver/available/available_solvers.h"
 #include "split_mapf/core/error.h"
+#include "split_mapf/generate/pose_generator.h"
 #include "split_mapf/io/map_server.h"
 #include "split_mapf/pipeline/disc_problem.h"
 #include "split_mapf/pipeline/planner.h"
-#include "split_mapf/pipeline/pose_generator.h"
 #include "support/benchmarks.h"
 #include "support/course_collision.h"
 #include "support/long_run.h"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "solver/available/available_solvers.h"
+#include "split_mapf/generate/pose_generator.h"
 #include "split_mapf/pipeline/planner.h"
-#include "split_mapf/pipeline/pose_generator.h"
 #include "support/course_collision.h"
 #include "support/drawn_rooms.h"
 

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "pipeline/fleet_goals.h"
+#include "fleet/fleet_goals.h"
 #include "split_mapf/core/random.h"
 #include "split_mapf/core/validate.h"
-#include "split_mapf/pipeline/fleet_replan.h"
+#include "split_mapf/fleet/fleet_replan.h"
 #include "support/ascii_grid.h"
 #include "support/random_plan.h"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <string>
 
-#include "split_mapf/core/generator.h"
 #include "split_mapf/core/validate.h"
+#include "split_mapf/generate/generator.h"
 #include "split_mapf/pipeline/planner.h"
 #include "support/ascii_grid.h"
 #include "support/long_run.h"

@@ -11,8 +11,8 @@
 
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/random.h"
-#include "split_mapf/pipeline/executor.h"
-#include "split_mapf/pipeline/refine.h"
+#include "split_mapf/improve/refine.h"
+#include "split_mapf/parallel/executor.h"
 #include "split_mapf/solver/registry.h"
 #include "support/ascii_grid.h"
 #include "support/long_run.h"

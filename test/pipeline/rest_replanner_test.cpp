@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/standing_times.h"
-#include "solver/search/departures.h"
-#include "solver/search/neighbourhood_search.h"
-#include "solver/search/replan_singly.h"
+#include "fleet/standing_times.h"
+#include "search/departures.h"
+#include "search/neighbourhood_search.h"
+#include "search/replan_singly.h"
 #include "split_mapf/core/validate.h"
 #include "support/ascii_grid.h"
 #include "support/random_plan.h"

@@ -15,8 +15,8 @@
 #include "split_mapf/core/distance_table.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/fleet_check.h"
-#include "split_mapf/core/generator.h"
 #include "split_mapf/core/random.h"
+#include "split_mapf/generate/generator.h"
 #include "split_mapf/pipeline/roll.h"
 #include "support/ascii_grid.h"
 

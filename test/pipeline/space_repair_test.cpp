@@ -3,10 +3,10 @@
 #include <atomic>
 #include <set>
 
-#include "split_mapf/core/generator.h"
-#include "split_mapf/core/solvability.h"
 #include "split_mapf/core/validate.h"
+#include "split_mapf/generate/generator.h"
 #include "split_mapf/pipeline/planner.h"
+#include "split_mapf/solvability/solvability.h"
 #include "split_mapf/solver/ecbs.h"
 #include "split_mapf/solver/prioritized.h"
 #include "support/fake_solver.h"

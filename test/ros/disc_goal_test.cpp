@@ -1,5 +1,5 @@
 // Robots that have size in goals and plans, without a master.
-#include "split_mapf/ros/disc_goal.h"
+#include "ros/convert/disc_goal.h"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "ros/convert/plan_check.h"
+#include "ros/convert/result_limits.h"
 #include "ros/goal_messages.h"
 #include "solver/available/available_solvers.h"
 #include "split_mapf/core/error.h"
@@ -14,9 +16,7 @@
 #include "split_mapf/ros/markers.h"
 #include "split_mapf/ros/orientation.h"
 #include "split_mapf/ros/outcome.h"
-#include "split_mapf/ros/plan_check.h"
 #include "split_mapf/ros/plan_messages.h"
-#include "split_mapf/ros/result_limits.h"
 
 namespace split_mapf {
 namespace {

@@ -1,4 +1,4 @@
-#include "split_mapf/ros/fleet_options.h"
+#include "ros/convert/fleet_options.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "split_mapf/core/generator.h"
+#include "split_mapf/generate/generator.h"
 
 namespace split_mapf::test {
 namespace {

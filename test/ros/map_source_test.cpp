@@ -1,4 +1,4 @@
-#include "split_mapf/ros/map_source.h"
+#include "ros/convert/map_source.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "split_mapf/ros/options_loader.h"
+#include "ros/convert/options_loader.h"
 
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
@@ -7,8 +7,8 @@
 #include <functional>
 #include <limits>
 
+#include "ros/replay/replay.h"
 #include "split_mapf/core/error.h"
-#include "split_mapf/ros/replay.h"
 
 namespace split_mapf {
 namespace {

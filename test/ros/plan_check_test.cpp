@@ -1,4 +1,4 @@
-#include "split_mapf/ros/plan_check.h"
+#include "ros/convert/plan_check.h"
 
 #include <gtest/gtest.h>
 

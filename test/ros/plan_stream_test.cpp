@@ -1,4 +1,4 @@
-#include "split_mapf/ros/plan_stream.h"
+#include "ros/server/plan_stream.h"
 
 #include <gtest/gtest.h>
 

@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "ros/goal_messages.h"
+#include "ros/server/plan_server.h"
 #include "ros/tracked_goal.h"
-#include "split_mapf/ros/plan_server.h"
 #include "split_mapf/solver/ecbs.h"
 #include "split_mapf/solver/lacam.h"
 #include "support/fake_solver.h"

@@ -1,4 +1,4 @@
-#include "split_mapf/ros/replay_clock.h"
+#include "ros/replay/replay_clock.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "split_mapf/ros/replay_timeline.h"
+#include "ros/replay/replay_timeline.h"
 
 #include <gtest/gtest.h>
 

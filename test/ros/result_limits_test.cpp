@@ -1,4 +1,4 @@
-#include "split_mapf/ros/result_limits.h"
+#include "ros/convert/result_limits.h"
 
 #include <gtest/gtest.h>
 #include <ros/serialization.h>

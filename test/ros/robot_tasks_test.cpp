@@ -1,4 +1,4 @@
-#include "split_mapf/ros/robot_tasks.h"
+#include "ros/convert/robot_tasks.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "split_mapf/ros/run_slots.h"
+#include "ros/server/run_slots.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "split_mapf/ros/text_limits.h"
+#include "ros/convert/text_limits.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "split_mapf/ros/vda5050_bridge.h"
+#include "ros/fleet/vda5050_bridge.h"
 
 #include <gtest/gtest.h>
 

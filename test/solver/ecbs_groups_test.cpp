@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "search/path_table.h"
 #include "solver/ecbs/conflicts.h"
-#include "solver/search/path_table.h"
 #include "split_mapf/core/validate.h"
 #include "split_mapf/solver/ecbs.h"
 #include "support/ascii_grid.h"

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "search/gap_search.h"
 #include "solver/joint/joint_groups.h"
-#include "solver/search/gap_search.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/validate.h"
 #include "support/ascii_grid.h"

@@ -11,9 +11,9 @@
 #include <thread>
 #include <vector>
 
+#include "search/explored.h"
 #include "solver/lacam/guidance.h"
 #include "solver/lacam/pibt.h"
-#include "solver/search/explored.h"
 #include "split_mapf/core/random.h"
 #include "split_mapf/core/validate.h"
 #include "support/ascii_grid.h"

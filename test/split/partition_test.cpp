@@ -10,7 +10,7 @@
 #include "split/narrow_borders.h"
 #include "split/region_repair.h"
 #include "split_mapf/core/error.h"
-#include "split_mapf/core/generator.h"
+#include "split_mapf/generate/generator.h"
 #include "support/ascii_grid.h"
 #include "support/small_instances.h"
 

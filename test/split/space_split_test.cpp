@@ -6,8 +6,8 @@
 #include <tuple>
 
 #include "split_mapf/core/error.h"
-#include "split_mapf/core/generator.h"
-#include "split_mapf/core/solvability.h"
+#include "split_mapf/generate/generator.h"
+#include "split_mapf/solvability/solvability.h"
 #include "support/ascii_grid.h"
 #include "support/small_instances.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "solver/search/reservation_table.h"
+#include "search/reservation_table.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"
 #include "split_mapf/solver/conflict_optimizer.h"

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "split_mapf/core/generator.h"
 #include "split_mapf/core/random.h"
+#include "split_mapf/generate/generator.h"
 #include "support/ascii_grid.h"
 
 namespace split_mapf::test {

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
-#include "split_mapf/core/generator.h"
 #include "split_mapf/core/instance.h"
+#include "split_mapf/generate/generator.h"
 
 namespace split_mapf::test {
 

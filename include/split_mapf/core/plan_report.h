@@ -9,7 +9,7 @@
 #include "split_mapf/core/layout.h"
 #include "split_mapf/core/objective.h"
 #include "split_mapf/core/plan.h"
-#include "split_mapf/core/solvability.h"
+#include "split_mapf/core/solvability_verdict.h"
 #include "split_mapf/core/termination.h"
 
 namespace split_mapf {

@@ -3,7 +3,7 @@
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan_report.h"
-#include "split_mapf/pipeline/executor.h"
+#include "split_mapf/parallel/executor.h"
 #include "split_mapf/pipeline/plan_listener.h"
 #include "split_mapf/pipeline/plan_request.h"
 #include "split_mapf/solver/registry.h"

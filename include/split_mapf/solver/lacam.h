@@ -13,7 +13,7 @@ struct LacamSettings;
 /// step), each successor made by PIBT; a configuration that is visited again forces one robot more
 /// to one place, so in the end every successor comes up. Complete: it finds a plan or proves that
 /// there is none, in a search that is finite but may be exponential; instances that
-/// core/solvability refuses need no search.
+/// solvability/solvability refuses need no search.
 /// Source: Okumura, AAAI 2023 and IJCAI 2023 (swaps), AAMAS 2024 (scattered guidance, after Han and
 /// Yu, ICRA 2022). Deviations: one configuration a visit instead of ten; guidance trades collisions
 /// against detours; the plan follows the shortest way through the configurations seen and is

@@ -10,7 +10,7 @@
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/option_info.h"
 #include "split_mapf/core/plan.h"
-#include "split_mapf/core/solvability.h"
+#include "split_mapf/solvability/solvability.h"
 #include "split_mapf/split/split_options.h"
 #include "split_mapf/split/split_spec.h"
 #include "split_mapf/split/splitter.h"

@@ -7,7 +7,7 @@
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"
-#include "split_mapf/core/solvability.h"
+#include "split_mapf/solvability/solvability.h"
 #include "split_mapf/split/piece_tree.h"
 
 namespace split_mapf {

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "parallel/thread_team.h"
 #include "pipeline/rolling/fleet_window.h"
 #include "pipeline/rolling/window_search.h"
-#include "solver/search/apart.h"
-#include "solver/search/thread_team.h"
+#include "search/apart.h"
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/pipeline/rolling.h"
 

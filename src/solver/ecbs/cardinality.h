@@ -5,8 +5,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "search/constraints.h"
 #include "solver/ecbs/constraint_tree.h"
-#include "solver/search/constraints.h"
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "solver/search/constraints.h"
-#include "solver/search/path_table.h"
+#include "search/constraints.h"
+#include "search/path_table.h"
 
 namespace split_mapf {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "solver/search/stay.h"
+#include "search/stay.h"
 
 namespace split_mapf {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <vector>
 
+#include "search/path_table.h"
 #include "solver/ecbs/low_level.h"
 #include "solver/ecbs/settings.h"
-#include "solver/search/path_table.h"
-#include "solver/search/reserved_paths.h"
+#include "solver/reserved_paths.h"
 #include "split_mapf/core/instance.h"
 
 namespace split_mapf {

@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
+#include "search/path_table.h"
+#include "search/safe_interval_search.h"
 #include "solver/ecbs/settings.h"
-#include "solver/search/path_table.h"
-#include "solver/search/safe_interval_search.h"
 #include "split_mapf/core/instance.h"
 
 namespace split_mapf {

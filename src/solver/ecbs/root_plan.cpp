@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "solver/search/robot_order.h"
+#include "search/robot_order.h"
 
 namespace split_mapf {
 

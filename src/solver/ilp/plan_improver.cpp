@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-#include "solver/search/neighbourhood_search.h"
+#include "search/neighbourhood_search.h"
 
 namespace split_mapf::ilp {
 

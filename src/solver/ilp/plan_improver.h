@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "search/gap_search.h"
 #include "solver/ilp/conflict_row.h"
-#include "solver/search/gap_search.h"
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"

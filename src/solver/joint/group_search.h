@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "search/neighbourhood.h"
+#include "search/path_table.h"
 #include "solver/joint/settings.h"
-#include "solver/search/neighbourhood.h"
-#include "solver/search/path_table.h"
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"

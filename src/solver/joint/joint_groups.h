@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "search/path_table.h"
 #include "solver/joint/joint_search.h"
 #include "solver/joint/settings.h"
-#include "solver/search/path_table.h"
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"

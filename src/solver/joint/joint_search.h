@@ -4,10 +4,10 @@
 #include <queue>
 #include <vector>
 
+#include "search/explored.h"
+#include "search/path_table.h"
 #include "solver/joint/joint_moves.h"
 #include "solver/joint/settings.h"
-#include "solver/search/explored.h"
-#include "solver/search/path_table.h"
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "solver/search/stay.h"
+#include "search/stay.h"
 #include "split_mapf/core/objective.h"
 
 namespace split_mapf {

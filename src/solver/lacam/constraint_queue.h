@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "solver/search/explored.h"
+#include "search/explored.h"
 #include "split_mapf/core/graph.h"
 #include "split_mapf/core/random.h"
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "search/robot_order.h"
 #include "solver/lacam/scatter_search.h"
-#include "solver/search/robot_order.h"
 #include "split_mapf/core/random.h"
 
 namespace split_mapf {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "search/robot_order.h"
 #include "solver/lacam/shortest_sequence.h"
-#include "solver/search/robot_order.h"
 
 namespace split_mapf {
 namespace {

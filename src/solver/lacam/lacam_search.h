@@ -5,13 +5,13 @@
 #include <utility>
 #include <vector>
 
+#include "search/explored.h"
+#include "search/packed_rows.h"
 #include "solver/lacam/constraint_queue.h"
 #include "solver/lacam/guidance.h"
 #include "solver/lacam/pibt.h"
 #include "solver/lacam/robot_distances.h"
 #include "solver/lacam/settings.h"
-#include "solver/search/explored.h"
-#include "solver/search/packed_rows.h"
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "search/explored.h"
 #include "solver/lacam/guidance.h"
 #include "solver/lacam/robot_distances.h"
 #include "solver/lacam/swap_rule.h"
-#include "solver/search/explored.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/random.h"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "solver/search/bucket_queue.h"
+#include "search/bucket_queue.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"
 

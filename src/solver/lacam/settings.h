@@ -12,7 +12,7 @@ struct LacamSettings {
   std::uint64_t seed = 0;
   std::uint64_t expansion_limit = 0;  ///< as in SolverOptions
 
-  bool check = true;           ///< ask core/solvability first
+  bool check = true;           ///< ask solvability/solvability first
   std::uint64_t guidance = 4;  ///< rounds in which robots choose scattered paths; 0: no guidance
   std::uint64_t margin = 10;   ///< steps that a scattered path may be longer than the shortest
   bool swap = true;            ///< robots that block each other change places

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/search/explored.h"
+#include "search/explored.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/objective.h"
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "search/explored.h"
 #include "solver/lacam/robot_distances.h"
-#include "solver/search/explored.h"
 #include "split_mapf/core/instance.h"
 
 namespace split_mapf {

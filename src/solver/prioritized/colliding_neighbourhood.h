@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "search/adaptive_choice.h"
+#include "search/path_table.h"
 #include "solver/prioritized/collision_graph.h"
-#include "solver/search/adaptive_choice.h"
-#include "solver/search/path_table.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"
 #include "split_mapf/core/random.h"

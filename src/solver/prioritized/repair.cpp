@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "solver/search/path_table.h"
+#include "search/path_table.h"
 
 namespace split_mapf {
 

@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "search/path_table.h"
+#include "search/safe_interval_search.h"
 #include "solver/prioritized/colliding_neighbourhood.h"
 #include "solver/prioritized/collision_graph.h"
 #include "solver/prioritized/effort.h"
-#include "solver/search/path_table.h"
-#include "solver/search/safe_interval_search.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"
 

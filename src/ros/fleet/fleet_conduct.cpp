@@ -1,0 +1,235 @@
+// Of the fleet server: robots' reports, replans, routes and states.
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <ros/console.h>
+#include <split_mapf/FleetState.h>
+#include <split_mapf/RobotRoute.h>
+
+#include "ros/convert/fleet_messages.h"
+#include "ros/convert/text_limits.h"
+#include "ros/fleet/fleet_server.h"
+#include "split_mapf/core/error.h"
+#include "split_mapf/core/wording.h"
+#include "split_mapf/io/execution_file.h"
+#include "split_mapf/ros/orientation.h"
+#include "split_mapf/ros/plan_messages.h"
+
+namespace split_mapf {
+namespace {
+
+constexpr double kStatePeriodSec = 0.5;
+
+bool isFinite(const geometry_msgs::Point& point) {
+  return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
+}
+
+}  // namespace
+
+void FleetServer::takeProgress(const RobotProgress& message) {
+  const Lock lock(mutex_);
+  ++counts_.reports;
+  const std::string fault = faultOfRobotId(message.robot_id);
+  if (!fault.empty()) return countRefused(message, "its robot_id " + fault);
+  if (!message.pose.header.frame_id.empty() && !isFinite(message.pose.pose.position)) {
+    return countRefused(message, "its pose is not finite");
+  }
+  const double time = now();
+  Known& known = known_[message.robot_id];
+  known.heard = time;
+  const std::optional<Cell> place = placeOf(message.pose);
+  if (!message.pose.header.frame_id.empty()) known.pose = message.pose;
+  if (place) known.place = place;
+  if (!fleet_) return;
+  if (index_.empty()) {
+    for (std::uint32_t robot = 0; robot < fleet_->robots(); ++robot) {
+      index_[fleet_->id(robot)] = robot;
+    }
+  }
+  const auto robot = index_.find(message.robot_id);
+  const auto status = static_cast<DriveStatus>(message.status);
+  if (robot == index_.end() || message.plan_id != plan_id_) {
+    ++counts_.of_others;
+    if (robot != index_.end()) fleet_->hear(robot->second, status, place, time);
+    return;
+  }
+  RobotReport report;
+  report.sequence = message.sequence;
+  report.fraction = message.fraction;
+  report.status = status;
+  report.place = place;
+  const ReportFate fate = fleet_->report(robot->second, report, time);
+  if (fate != ReportFate::kTaken) countRefused(message, toString(fate));
+}
+
+void FleetServer::countRefused(const RobotProgress& message, const std::string& why) {
+  ++counts_.refused;
+  counts_.last_refused = "robot " + quote(message.robot_id) + ", visit " +
+                         std::to_string(message.sequence) + " and " + numeral(message.fraction) +
+                         ": " + why;
+  ROS_WARN_THROTTLE(1, "progress that cannot be: %s", counts_.last_refused.c_str());
+}
+
+/// The cell in which a pose lies; nothing where there is none, or no map yet.
+std::optional<Cell> FleetServer::placeOf(const geometry_msgs::PoseStamped& pose) const {
+  if (pose.header.frame_id.empty() || !grid_) return std::nullopt;
+  const MapGeometry& geometry = grid_->geometry;
+  if (stripSlash(pose.header.frame_id) == geometry.frame()) {
+    return geometry.cellAt(pose.pose.position);
+  }
+  try {
+    return geometry.cellAt(transformer_.forGoal(Deadline(0))(pose, geometry.frame()));
+  } catch (const TransformFailure& failure) {
+    ROS_WARN_THROTTLE(5, "a robot's pose is left out: %s", failure.what());
+    return std::nullopt;
+  }
+}
+
+/// Cells that were blocked by a service, and those where robots stand that are not of the fleet.
+void FleetServer::closeCells() {
+  std::vector<bool> blocked(grid_->grid->size(), false);
+  std::vector<bool> strangers = blocked;
+  const auto mark = [&](std::vector<bool>& cells, Cell cell) {
+    const Vertex vertex = grid_->grid->vertexAt(cell);
+    if (vertex != kNoVertex) cells[vertex] = true;
+  };
+  for (const std::uint32_t cell : blocked_) mark(blocked, grid_->geometry.cellOf(cell));
+  for (const auto& [id, known] : known_) {
+    if (known.place && index_.count(id) == 0) mark(strangers, *known.place);
+  }
+  fleet_->setBlocked(blocked);
+  fleet_->setStrangers(strangers);
+}
+
+void FleetServer::tick() {
+  const Lock lock(mutex_);
+  const double time = now();
+  if (!fleet_) takeUpAgain(time);
+  beginWhenReady(time);
+  if (!fleet_) return;
+  if (index_.size() == fleet_->robots()) closeCells();
+  fleet_->advance(time);
+  askLocked(time);
+  keepLocked(time);
+  publishRoutes(time);
+  if (time - state_at_ >= kStatePeriodSec || time < state_at_) publishState(time);
+  endWhenFinished(time);
+}
+
+void FleetServer::askLocked(double time) {
+  if (replans_) {
+    if (fleet_->isUrgent()) hurry_->request();
+    return;
+  }
+  if (stop_->requested()) return;
+  std::optional<FleetQuestion> question = fleet_->ask(time);
+  if (!question) return;
+  if (replanner_.joinable()) replanner_.join();
+  replans_ = true;
+  hurry_ = std::make_shared<StopFlag>();
+  replanner_ = std::thread([this, epoch = epoch_, hurry = hurry_,
+                            question = std::move(*question)]() { replan(question, epoch, hurry); });
+}
+
+/// In a thread of its own.
+void FleetServer::replan(const FleetQuestion& question, std::uint64_t epoch,
+                         const std::shared_ptr<StopFlag>& hurry) {
+  const ros::WallTime begin = ros::WallTime::now();
+  FleetAnswer answer;
+  const PlanRequest& request = options_.server.goal.plan;
+  const double limit = question.anew ? request.time_limit_sec : options_.replan_budget_sec;
+  try {
+    answer = answerFleet(question, planner_, request, Deadline(limit, hurry));
+  } catch (const std::exception& error) {
+    answer.version = question.version;
+    answer.anew = question.anew;
+    answer.ground = question.ground;
+    answer.message = error.what();
+    ROS_ERROR("a replan failed: %s", error.what());
+  }
+  const Lock lock(mutex_);
+  replans_ = false;
+  counts_.last_replan_sec = (ros::WallTime::now() - begin).toSec();
+  if (!fleet_ || epoch != epoch_ || stop_->requested()) return;
+  const double time = now();
+  fleet_->take(std::move(answer), time);
+  if (index_.size() != fleet_->robots()) index_.clear();
+  keepLocked(time);
+  publishRoutes(time);
+}
+
+/// Before any route that depends on it is sent.
+void FleetServer::keepLocked(double time) {
+  if (options_.execution_file.empty() || fleet_->isRestoring()) return;
+  if (fleet_->snapshotVersion() == kept_version_) return;
+  kept_version_ = fleet_->snapshotVersion();
+  FleetSnapshot kept = fleet_->snapshot(time);
+  kept.plan_id = plan_id_;
+  kept.blocked.clear();
+  for (const std::uint32_t cell : blocked_) kept.blocked.push_back(grid_->geometry.cellOf(cell));
+  try {
+    writeExecution(options_.execution_file, kept);
+    counts_.trouble.clear();
+  } catch (const InputError& error) {
+    counts_.trouble = error.what();
+    ROS_ERROR_THROTTLE(10, "%s; this node could not go on after a restart", error.what());
+  }
+}
+
+void FleetServer::publishRoutes(double /*time*/) {
+  const ros::Time stamp = ros::Time::now();
+  for (const std::uint32_t robot : fleet_->takeChanged()) {
+    const RobotRoute route =
+        routeMessage(*fleet_, robot, options_.route_ahead, *grid_, plan_id_, stamp);
+    const std::string name = rosNameOf(route.robot_id);
+    ros::Publisher& publisher = routes_[name];
+    if (!publisher) publisher = node_.advertise<RobotRoute>(name + "/route", 1, true);
+    publisher.publish(route);
+    all_routes_.publish(route);
+  }
+}
+
+void FleetServer::welcome(const ros::SingleSubscriberPublisher& subscriber) {
+  const Lock lock(mutex_);
+  if (!fleet_ || fleet_->isRestoring()) return;
+  for (std::uint32_t robot = 0; robot < fleet_->robots(); ++robot) {
+    subscriber.publish(
+        routeMessage(*fleet_, robot, options_.route_ahead, *grid_, plan_id_, ros::Time::now()));
+  }
+}
+
+void FleetServer::publishState(double time) {
+  state_at_ = time;
+  const std::vector<FleetRobotStatus> status = fleet_->status(time);
+  state_.publish(stateMessage(*fleet_, status, *grid_, plan_id_, ros::Time::now()));
+  ExecutePlanFeedback feedback;
+  counts_.arrived = counts_.absent = counts_.without_way = 0;
+  feedback.late = -planned_sec_;
+  for (const FleetRobotStatus& robot : status) {
+    counts_.arrived += robot.arrived ? 1 : 0;
+    counts_.absent += robot.absence != Absence::kNone ? 1 : 0;
+    counts_.without_way += robot.fault != GoalFault::kNone ? 1 : 0;
+    feedback.moving += robot.moves && !robot.arrived ? 1 : 0;
+    feedback.late = std::max(feedback.late, robot.late_sec);
+  }
+  feedback.arrived = counts_.arrived;
+  feedback.waiting = fleet_->robots() - feedback.arrived - feedback.moving;
+  if (goal_) goal_->publishFeedback(feedback);
+}
+
+FleetServerStatus FleetServer::status() const {
+  const Lock lock(mutex_);
+  FleetServerStatus status = counts_;
+  status.plan_id = plan_id_;
+  if (!fleet_) return status;
+  status.restoring = fleet_->isRestoring();
+  status.robots = fleet_->robots();
+  status.rings = fleet_->rings();
+  status.replans = fleet_->replans();
+  if (!fleet_->trouble().empty()) status.trouble = fleet_->trouble();
+  return status;
+}
+
+}  // namespace split_mapf

@@ -1,0 +1,357 @@
+// The action, and what happens as time goes by.
+
+#include "ros/fleet/fleet_server.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include <ros/console.h>
+#include <split_mapf/FleetState.h>
+#include <split_mapf/RobotRoute.h>
+
+#include "ros/convert/fleet_messages.h"
+#include "ros/convert/plan_check.h"
+#include "ros/convert/text_limits.h"
+#include "split_mapf/core/error.h"
+#include "split_mapf/core/release_fraction.h"
+#include "split_mapf/core/wording.h"
+#include "split_mapf/io/execution_file.h"
+#include "split_mapf/ros/plan_messages.h"
+
+namespace split_mapf {
+namespace {
+
+constexpr double kTickSec = 0.1;
+constexpr std::uint32_t kQueue = 20000;  // messages: two seconds of a thousand robots
+
+PlanningGrid latestGrid(const MapSource& maps, const GoalOptions& options) {
+  const auto map = maps.choose(std::make_shared<const nav_msgs::OccupancyGrid>());
+  return makePlanningGrid(*map, options.occupancy, options.ignore_specks);
+}
+
+bool liesTheSame(const MapGeometry& one, const MapGeometry& other) {
+  const nav_msgs::MapMetaData& a = one.info();
+  const nav_msgs::MapMetaData& b = other.info();
+  return a.width == b.width && a.height == b.height && a.resolution == b.resolution &&
+         a.origin == b.origin && one.frame() == other.frame();
+}
+
+FaultList listOf(std::vector<RobotFault> faults) {
+  FaultList list;
+  for (std::size_t i = 0; i < faults.size(); ++i) list.add(i, std::move(faults[i]));
+  return list;
+}
+
+}  // namespace
+
+FleetServer::FleetServer(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
+                         const FleetServerOptions& options, const MapSource& maps,
+                         const Planner& planner, const PoseTransformer& transformer)
+    : options_(options),
+      maps_(maps),
+      planner_(planner),
+      transformer_(transformer),
+      node_(node),
+      kept_may_exist_(!options.execution_file.empty()),
+      stop_(std::make_shared<StopFlag>()),
+      hurry_(std::make_shared<StopFlag>()) {
+  ros::NodeHandle own(private_node);
+  all_routes_ = own.advertise<RobotRoute>(
+      "routes", kQueue,
+      [this](const ros::SingleSubscriberPublisher& subscriber) { welcome(subscriber); });
+  state_ = own.advertise<FleetState>("state", 1, true);
+  progress_ = node_.subscribe("progress", kQueue, &FleetServer::takeProgress, this,
+                              ros::TransportHints().tcpNoDelay());
+  services_ = {own.advertiseService("block_cells", &FleetServer::blockCells, this),
+               own.advertiseService("remove_robot", &FleetServer::removeRobot, this),
+               own.advertiseService("add_robot", &FleetServer::addRobot, this),
+               own.advertiseService("pause", &FleetServer::pauseRobots, this)};
+  timer_ = own.createWallTimer(ros::WallDuration(kTickSec),
+                               [this](const ros::WallTimerEvent&) { tick(); });
+  server_ = std::make_unique<Server>(
+      own, "execute", [this](const Goal& goal) { takeGoal(goal); },
+      [this](const Goal& goal) { takeCancel(goal); }, false);
+  server_->start();
+}
+
+FleetServer::~FleetServer() {
+  shutdown();
+  if (replanner_.joinable()) replanner_.join();
+}
+
+void FleetServer::shutdown() {
+  timer_.stop();
+  stop_->request();
+  const Lock lock(mutex_);
+  hurry_->request();
+  ExecutePlanResult result;
+  result.outcome = codeOf(Outcome::kCancelled);
+  result.message = "the node ends; robots stop at the end of what is released to them";
+  if (goal_) goal_->setCanceled(result, result.message);
+  if (waiting_) waiting_->goal.setCanceled(result, result.message);
+  goal_.reset();
+  waiting_.reset();
+}
+
+/// ROS time without its jumps back; it stands where a simulated clock stands.
+double FleetServer::now() {
+  const ros::Time time = ros::Time::now();
+  if (!last_time_.isZero() && time > last_time_) clock_ += (time - last_time_).toSec();
+  last_time_ = time;
+  return clock_;
+}
+
+void FleetServer::refuse(Goal& goal, const GoalError& error) const {
+  ExecutePlanResult result;
+  result.outcome = codeOf(error.outcome());
+  result.message = error.what();
+  result.faults = error.faults();
+  if (error.outcome() == Outcome::kServerBusy) return goal.setRejected(result, result.message);
+  goal.setAccepted();
+  goal.setAborted(result, result.message);
+}
+
+void FleetServer::takeGoal(Goal goal) {
+  try {
+    const Lock lock(mutex_);
+    if (goal_ || waiting_) {
+      throw GoalError(Outcome::kServerBusy,
+                      "a plan is being executed; cancel that goal, or wait for its end");
+    }
+    // The plan may be the one that was under way when this node ended, and come before the first
+    // tick.
+    if (!fleet_) takeUpAgain(now());
+    const MultiRobotPlan& plan = goal.getGoal()->plan;
+    if (fleet_ && !fleet_->isCancelled() && isTheSame(plan)) {
+      goal.setAccepted();
+      goal_ = goal;
+      return;
+    }
+    Waiting waiting = check(goal);
+    goal.setAccepted();
+    waiting.since = now();
+    // Robots of an execution that was taken up again stop first.
+    if (fleet_) fleet_->cancel();
+    waiting_ = std::move(waiting);
+  } catch (const GoalError& error) {
+    refuse(goal, error);
+  } catch (const InputError& error) {
+    refuse(goal, GoalError(Outcome::kInvalidOption, error.what()));
+  }
+}
+
+/// Whether a plan brings the robots of the present execution to their present goals.
+bool FleetServer::isTheSame(const MultiRobotPlan& plan) const {
+  if (plan.paths.size() != fleet_->robots()) return false;
+  return std::all_of(plan.paths.begin(), plan.paths.end(), [this](const RobotPath& path) {
+    const auto robot = fleet_->find(path.robot_id);
+    if (!robot || path.cells.empty()) return false;
+    const Cell goal = grid_->geometry.cellOf(path.cells.back());
+    return grid_->grid->contains(goal) && grid_->grid->vertexAt(goal) == fleet_->goal(*robot);
+  });
+}
+
+FleetServer::Waiting FleetServer::check(const Goal& goal) const {
+  const MultiRobotPlan& plan = goal.getGoal()->plan;
+  if (isOnRoadmap(plan)) {
+    throw GoalError(Outcome::kInvalidOption,
+                    "the plan is on a planning graph, for robots that have size; only plans whose "
+                    "moves go to one of four neighbouring cells are executed yet");
+  }
+  PlanningGrid grid = latestGrid(maps_, options_.server.goal);
+  const std::vector<std::string> wrong = findViolations(plan, grid);
+  if (!wrong.empty()) {
+    const nav_msgs::MapMetaData& map = grid.geometry.info();
+    const bool other_map = plan.grid.width != map.width || plan.grid.height != map.height ||
+                           plan.grid.resolution != map.resolution;
+    const std::string more =
+        wrong.size() > 1 ? " (and " + counted(wrong.size() - 1, "more violation") + ")" : "";
+    throw GoalError(other_map ? Outcome::kInvalidMap : Outcome::kInvalidOption,
+                    "the plan cannot be executed: " + wrong.front() + more);
+  }
+  std::vector<std::string> ids;
+  for (const RobotPath& path : plan.paths) {
+    const std::string fault = faultOfRobotId(path.robot_id);
+    if (!fault.empty()) {
+      throw GoalError(Outcome::kInvalidOption,
+                      "the robot_id " + quote(path.robot_id) + " of a path " + fault);
+    }
+    ids.push_back(path.robot_id);
+  }
+  distinctRosNames(ids, "route");
+  FleetOptions options = options_.fleet;
+  options.step_sec = plan.step_duration;
+  if (options_.robot_radius_m > 0) {
+    options.release = releaseFraction(options_.robot_radius_m, grid.geometry.info().resolution);
+  }
+  requireValid(options);
+  return {goal, plan, std::move(grid), options, 0};
+}
+
+std::vector<RobotFault> FleetServer::notReady(const Waiting& waiting, double now) const {
+  std::vector<RobotFault> faults;
+  const MapGeometry& geometry = waiting.grid.geometry;
+  for (const RobotPath& path : waiting.message.paths) {
+    const auto known = known_.find(path.robot_id);
+    const std::string who = "robot " + quote(path.robot_id);
+    if (known == known_.end() || now - known->second.heard > options_.fleet.progress_timeout_sec) {
+      faults.push_back(makeFault(path.robot_id, Outcome::kUnknownRobot, who + " does not report"));
+      continue;
+    }
+    const std::optional<Cell>& place = known->second.place;
+    const Cell start = geometry.cellOf(path.cells.front());
+    if (!place || *place == start) continue;
+    faults.push_back(makeFault(path.robot_id, Outcome::kInvalidPose,
+                               who + " is in cell " + geometry.describeWithMetres(*place) +
+                                   ", but its path begins in cell " +
+                                   geometry.describeWithMetres(start)));
+  }
+  return faults;
+}
+
+/// Cells of a map that lies elsewhere are other places.
+void FleetServer::changeGrid(const PlanningGrid& grid) {
+  const bool stays = grid_ && liesTheSame(grid_->geometry, grid.geometry);
+  grid_ = grid;
+  if (stays) return;
+  for (auto& [id, known] : known_) known.place = placeOf(known.pose);
+  if (blocked_.empty()) return;
+  ROS_WARN("the map lies elsewhere now, so that %s may be entered again",
+           counted(blocked_.size(), "blocked cell").c_str());
+  blocked_.clear();
+}
+
+void FleetServer::beginWhenReady(double now) {
+  if (!waiting_ || fleet_ || replans_) return;
+  changeGrid(waiting_->grid);
+  std::vector<RobotFault> faults = notReady(*waiting_, now);
+  if (faults.empty()) {
+    const Waiting waiting = std::move(*waiting_);
+    waiting_.reset();
+    begin(waiting, now);
+    return;
+  }
+  // Who does not report may be about to; then all that is wrong is told at once.
+  const bool is_any_silent = std::any_of(faults.begin(), faults.end(), [](const RobotFault& fault) {
+    return fault.code == codeOf(Outcome::kUnknownRobot);
+  });
+  const bool patient = now - waiting_->since <= options_.fleet.progress_timeout_sec;
+  if (is_any_silent && patient) return;
+  const GoalError error(listOf(std::move(faults)));
+  ExecutePlanResult result;
+  result.outcome = codeOf(error.outcome());
+  result.message = error.what();
+  result.faults = error.faults();
+  waiting_->goal.setAborted(result, result.message);
+  waiting_.reset();
+}
+
+void FleetServer::begin(const Waiting& waiting, double now) {
+  std::vector<std::string> ids;
+  for (const RobotPath& path : waiting.message.paths) ids.push_back(path.robot_id);
+  const Plan plan = planOf(waiting.message, waiting.grid);
+  goal_ = waiting.goal;
+  planned_sec_ = makespanOf(plan) * waiting.options.step_sec;
+  fleet_ =
+      std::make_unique<FleetExecution>(grid_->grid, std::move(ids), plan, waiting.options, now);
+  const ros::WallTime stamp = ros::WallTime::now();
+  plan_id_ = std::to_string(stamp.sec) + "." + std::to_string(stamp.nsec / 1000);
+  began_ = now;
+  ++epoch_;
+  kept_version_ = 0;
+  index_.clear();
+  ROS_INFO("executing a plan of %s, %.0f s", counted(fleet_->robots(), "robot").c_str(),
+           planned_sec_);
+}
+
+void FleetServer::takeUpAgain(double now) {
+  if (!kept_may_exist_) return;
+  try {
+    const std::optional<FleetSnapshot> kept = readExecution(options_.execution_file);
+    if (!kept) {
+      kept_may_exist_ = false;
+      return;
+    }
+    const PlanningGrid grid = latestGrid(maps_, options_.server.goal);
+    kept_may_exist_ = false;
+    fleet_ = std::make_unique<FleetExecution>(grid.grid, *kept, options_.fleet, now);
+    changeGrid(grid);
+    for (const Cell cell : kept->blocked) blocked_.insert(grid_->geometry.indexOf(cell));
+    plan_id_ = kept->plan_id;
+    began_ = now - kept->elapsed_sec;
+    planned_sec_ = 0;
+    for (const FleetSnapshot::Robot& robot : kept->robots) {
+      planned_sec_ = std::max(planned_sec_, robot.planned_sec);
+    }
+    ++epoch_;
+    ROS_WARN("taking up again the execution of %s that was under way when this node ended",
+             counted(kept->robots.size(), "robot").c_str());
+  } catch (const GoalError&) {
+    ROS_WARN_THROTTLE(10, "an execution was under way when this node ended; waiting for its map");
+  } catch (const InputError& error) {
+    kept_may_exist_ = false;
+    counts_.trouble = std::string("the execution that was under way is lost: ") + error.what();
+    ROS_ERROR("%s", counts_.trouble.c_str());
+  }
+}
+
+void FleetServer::takeCancel(const Goal& goal) {
+  const Lock lock(mutex_);
+  if (waiting_ && waiting_->goal == goal) {
+    ExecutePlanResult result;
+    result.outcome = codeOf(Outcome::kCancelled);
+    result.message = "cancelled before it began";
+    waiting_->goal.setCanceled(result, result.message);
+    waiting_.reset();
+  } else if (goal_ && *goal_ == goal && fleet_) {
+    fleet_->cancel();
+  }
+}
+
+void FleetServer::endWhenFinished(double now) {
+  if (!fleet_ || replans_ || !fleet_->isFinished()) return;
+  const std::vector<FleetRobotStatus> status = fleet_->status(now);
+  const FaultList faults = listOf(faultsOf(*fleet_, status, *grid_));
+  ExecutePlanResult result;
+  result.duration = now - began_;
+  result.planned = planned_sec_;
+  const std::size_t robots = fleet_->robots();
+  if (fleet_->isCancelled()) {
+    result.outcome = codeOf(Outcome::kCancelled);
+    result.message = "cancelled; all robots stand";
+  } else if (!fleet_->trouble().empty()) {
+    result.outcome = codeOf(Outcome::kNoPlanFound);
+    result.message = fleet_->trouble();
+  } else if (!faults.empty()) {
+    const GoalError error(faults);
+    result.outcome = codeOf(error.outcome());
+    result.message = error.what();
+    result.faults = error.faults();
+  } else {
+    result.message = counted(robots, "robot") + " arrived";
+  }
+  end(result);
+}
+
+void FleetServer::end(const ExecutePlanResult& result) {
+  publishState(clock_);
+  for (std::uint32_t robot = 0; robot < fleet_->robots(); ++robot) {
+    Known& known = known_[fleet_->id(robot)];
+    const bool has_pose = !known.pose.header.frame_id.empty();
+    if (!has_pose) known.place = grid_->grid->cellOf(fleet_->vertexOf(robot));
+  }
+  const bool arrived = result.outcome == codeOf(Outcome::kSucceeded);
+  const bool cancelled = result.outcome == codeOf(Outcome::kCancelled);
+  if (goal_ && arrived) goal_->setSucceeded(result, result.message);
+  if (goal_ && cancelled) goal_->setCanceled(result, result.message);
+  if (goal_ && !arrived && !cancelled) goal_->setAborted(result, result.message);
+  ROS_INFO("the execution ended after %.1f s: %s", result.duration, result.message.c_str());
+  goal_.reset();
+  fleet_.reset();
+  plan_id_.clear();
+  index_.clear();
+  if (!options_.execution_file.empty()) removeExecution(options_.execution_file);
+}
+
+}  // namespace split_mapf

@@ -1,0 +1,167 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <actionlib/server/action_server.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/service_server.h>
+#include <ros/subscriber.h>
+#include <ros/wall_timer.h>
+#include <split_mapf/AddRobot.h>
+#include <split_mapf/BlockCells.h>
+#include <split_mapf/ExecutePlanAction.h>
+#include <split_mapf/PauseRobots.h>
+#include <split_mapf/RemoveRobot.h>
+#include <split_mapf/RobotProgress.h>
+
+#include "ros/convert/fleet_options.h"
+#include "ros/convert/map_source.h"
+#include "ros/convert/pose_transformer.h"
+#include "split_mapf/fleet/fleet_execution.h"
+#include "split_mapf/ros/outcome.h"
+#include "split_mapf/ros/planning_grid.h"
+
+namespace split_mapf {
+
+/// What the fleet server is doing, for diagnostics.
+struct FleetServerStatus {
+  std::string plan_id;  ///< empty: it is idle
+  bool restoring = false;
+  std::uint32_t robots = 0;
+  std::uint32_t arrived = 0;
+  std::uint32_t absent = 0;
+  std::uint32_t without_way = 0;
+  std::uint32_t rings = 0;
+  std::uint32_t replans = 0;
+  double last_replan_sec = 0;
+  std::uint64_t reports = 0;
+  std::uint64_t refused = 0;    ///< reports that cannot be
+  std::uint64_t of_others = 0;  ///< of robots or plans that are not executed
+  std::string last_refused;
+  std::string trouble;  ///< why something cannot be done; empty: nothing is wrong
+};
+
+/// The ROS side of FleetExecution: translates messages, tells the time, keeps the execution in a
+/// file. Action ~execute; topics `progress` (in), <robot>/route (latched), ~routes (those of all
+/// robots; who subscribes is sent the present ones), ~state; services ~block_cells, ~remove_robot,
+/// ~add_robot, ~pause. Thread-safe.
+class FleetServer {
+ public:
+  /// @pre all outlive this object.
+  FleetServer(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
+              const FleetServerOptions& options, const MapSource& maps, const Planner& planner,
+              const PoseTransformer& transformer);
+  ~FleetServer();
+  FleetServer(const FleetServer&) = delete;
+  FleetServer& operator=(const FleetServer&) = delete;
+
+  FleetServerStatus status() const;
+  /// Ends the goal that runs; the execution stays in its file, for the next start.
+  void shutdown();
+
+ private:
+  using Server = actionlib::ActionServer<ExecutePlanAction>;
+  using Goal = Server::GoalHandle;
+  using Lock = std::unique_lock<std::mutex>;
+
+  /// A robot that reports, of the fleet or not.
+  struct Known {
+    double heard = 0;
+    geometry_msgs::PoseStamped pose;  ///< the last one; an empty frame: it gave none
+    std::optional<Cell> place;        ///< on the present grid
+  };
+  /// A plan that is right, and waits for its robots to report, or for an older one to end.
+  struct Waiting {
+    Goal goal;
+    MultiRobotPlan message;
+    PlanningGrid grid;
+    FleetOptions options;
+    double since = 0;
+  };
+
+  // The action.
+  void takeGoal(Goal goal);
+  void takeCancel(const Goal& goal);
+  Waiting check(const Goal& goal) const;
+  bool isTheSame(const MultiRobotPlan& plan) const;
+  void beginWhenReady(double now);
+  void changeGrid(const PlanningGrid& grid);
+  std::vector<RobotFault> notReady(const Waiting& waiting, double now) const;
+  void begin(const Waiting& waiting, double now);
+  void takeUpAgain(double now);
+  void endWhenFinished(double now);
+  void end(const ExecutePlanResult& result);
+  void refuse(Goal& goal, const GoalError& error) const;
+
+  // Robots.
+  void takeProgress(const RobotProgress& message);
+  std::optional<Cell> placeOf(const geometry_msgs::PoseStamped& pose) const;
+  void countRefused(const RobotProgress& message, const std::string& why);
+  void closeCells();
+
+  // Services.
+  bool blockCells(BlockCells::Request& request, BlockCells::Response& response);
+  bool removeRobot(RemoveRobot::Request& request, RemoveRobot::Response& response);
+  bool addRobot(AddRobot::Request& request, AddRobot::Response& response);
+  bool pauseRobots(PauseRobots::Request& request, PauseRobots::Response& response);
+  std::string tryToAdd(const RobotTask& task);
+
+  // As time goes by.
+  void tick();
+  void askLocked(double now);
+  void replan(const FleetQuestion& question, std::uint64_t epoch,
+              const std::shared_ptr<StopFlag>& hurry);
+  void keepLocked(double now);
+  void publishRoutes(double now);
+  void publishState(double now);
+  void welcome(const ros::SingleSubscriberPublisher& subscriber);
+  double now();
+
+  const FleetServerOptions options_;
+  const MapSource& maps_;
+  const Planner& planner_;
+  const PoseTransformer& transformer_;
+  ros::NodeHandle node_;
+
+  mutable std::mutex mutex_;
+  std::unique_ptr<FleetExecution> fleet_;
+  std::optional<PlanningGrid> grid_;
+  std::optional<Goal> goal_;  ///< that is being executed; nothing: taken up again without one
+  std::optional<Waiting> waiting_;
+  std::string plan_id_;
+  std::uint64_t epoch_ = 0;
+  double began_ = 0;
+  double planned_sec_ = 0;
+  bool kept_may_exist_ = false;  ///< an execution in the file has not been looked for yet
+  std::uint64_t kept_version_ = 0;
+  std::set<std::uint32_t> blocked_;  ///< cells, as in RobotPath.cells
+  std::map<std::string, Known> known_;
+  std::map<std::string, std::uint32_t> index_;  ///< of the fleet's robots
+  FleetServerStatus counts_;
+  double clock_ = 0;
+  ros::Time last_time_;
+  double state_at_ = 0;
+
+  std::map<std::string, ros::Publisher> routes_;  ///< by ROS name
+  ros::Publisher all_routes_;
+  ros::Publisher state_;
+  ros::Subscriber progress_;
+  std::vector<ros::ServiceServer> services_;
+  ros::WallTimer timer_;
+  std::shared_ptr<StopFlag> stop_;
+  std::shared_ptr<StopFlag> hurry_;  ///< of the replan that runs
+  std::thread replanner_;
+  bool replans_ = false;
+  std::unique_ptr<Server> server_;
+};
+
+}  // namespace split_mapf

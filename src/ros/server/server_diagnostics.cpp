@@ -1,0 +1,42 @@
+#include "ros/server/server_diagnostics.h"
+
+#include "core/resident_memory.h"
+#include "split_mapf/ros/outcome.h"
+
+namespace split_mapf {
+
+ServerDiagnostics::ServerDiagnostics(const ros::NodeHandle& node,
+                                     const ros::NodeHandle& private_node, const PlanServer& server,
+                                     QueueLimits limits, std::uint32_t workers)
+    : server_(server), limits_(limits), workers_(workers), updater_(node, private_node) {
+  updater_.setHardwareID("none");
+  updater_.add("planner",
+               [this](diagnostic_updater::DiagnosticStatusWrapper& status) { fill(status); });
+  timer_ = node.createWallTimer(ros::WallDuration(1.0),
+                                [this](const ros::WallTimerEvent&) { updater_.force_update(); });
+}
+
+void ServerDiagnostics::fill(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  using diagnostic_msgs::DiagnosticStatus;
+  const PlanServerStatus now = server_.status();
+  if (now.last_outcome == toString(Outcome::kInternalError)) {
+    status.summary(DiagnosticStatus::ERROR, "the last goal met an internal error");
+  } else if (now.queued + now.running >= limits_.admitted) {
+    status.summary(DiagnosticStatus::WARN, "the queue is full");
+  } else if (now.running > 0) {
+    status.summary(DiagnosticStatus::OK, "planning");
+  } else {
+    status.summary(DiagnosticStatus::OK, "ready");
+  }
+  status.add("goals running", now.running);
+  status.add("goals queued", now.queued);
+  status.add("goals allowed", limits_.admitted);
+  status.add("goals finished", now.finished);
+  status.add("workers", workers_);
+  status.add("last outcome", now.last_outcome);
+  status.add("last message", now.last_message);
+  status.addf("last runtime [s]", "%.3f", now.last_runtime_sec);
+  status.addf("memory [MiB]", "%.1f", residentMemoryMib());
+}
+
+}  // namespace split_mapf

@@ -1,0 +1,98 @@
+#include "search/gap_search.h"
+
+#include <algorithm>
+
+namespace split_mapf {
+namespace {
+
+constexpr std::uint64_t kPollEvery = 1024;
+
+}  // namespace
+
+GapSearch::GapSearch(const Graph& graph) : graph_(graph), reached_(graph.size()) {}
+
+inline void GapSearch::push(std::uint32_t parent, Vertex v, std::uint32_t time,
+                            std::uint32_t distance) {
+  // The step at which it is under way is its own.
+  const std::uint32_t own = parent == kNoState && query_->under_way ? 1 : 0;
+  const std::uint32_t leave_by =
+      reached_.markGap(*query_->placed, v, time + own, latest_arrival_ - distance + 1);
+  // Not max(estimate, earliest_hold_): among equals the order in time would be lost, and gaps be
+  // reached earlier again and again.
+  const std::uint32_t estimate = time + distance;
+  queue_.push({v, time, leave_by, parent}, estimate - first_estimate_);
+  const bool holds = distance == 0 && time >= earliest_hold_;
+  if (holds && time <= std::max(estimate_, earliest_hold_)) {
+    arrived_ = static_cast<std::uint32_t>(queue_.states().size() - 1);
+  }
+}
+
+inline void GapSearch::move(const State& state, std::uint32_t index, Vertex to) {
+  const std::uint32_t distance = distanceOf(to);
+  if (distance > latest_arrival_) return;
+  const std::uint32_t soonest = state.time + 1;
+  const std::uint32_t last = std::min(state.leave_by, latest_arrival_ - distance);
+  if (soonest > last) return;
+  forEachNewGap(*query_->placed, reached_, {state.vertex, to, state.leave_by, soonest, last},
+                [&](std::uint32_t first) { push(index, to, first, distance); });
+}
+
+void GapSearch::expand(std::uint32_t index) {
+  const State state = queue_[index];
+  estimate_ = state.time + distanceOf(state.vertex);
+  for (const Vertex to : graph_.neighbours(state.vertex)) move(state, index, to);
+}
+
+bool GapSearch::isStartFree() const {
+  const std::vector<Stay>& at_start = query_->placed->at(query_->start);
+  return query_->under_way || at_start.empty() || at_start.front().begin > query_->departure;
+}
+
+bool GapSearch::begin() {
+  queue_.clear();
+  arrived_ = kNoState;
+  // Once nobody moves any more the way home takes a step a vertex at most.
+  const std::uint64_t longest =
+      std::uint64_t{query_->placed->lastChange()} + query_->departure + graph_.size();
+  latest_arrival_ =
+      static_cast<std::uint32_t>(std::min<std::uint64_t>(query_->latest_arrival, longest));
+  reached_.reset(latest_arrival_ + 1);
+  const std::vector<Stay>& at_goal = query_->placed->at(query_->distances->goal());
+  earliest_hold_ = at_goal.empty() ? 0 : at_goal.back().end;
+  // Its own visit keeps nobody from staying on.
+  const bool at_home = query_->under_way && query_->start == query_->distances->goal();
+  if (at_home && earliest_hold_ == query_->departure + 1) --earliest_hold_;
+  const std::uint32_t distance = (*query_->distances)(query_->start);
+  if (distance == DistanceTable::kUnreachable || earliest_hold_ == kForever) return false;
+  first_estimate_ = estimate_ = query_->departure + distance;
+  if (std::max(first_estimate_, earliest_hold_) > query_->latest_arrival) return false;
+  if (!isStartFree()) return false;
+  push(kNoState, query_->start, query_->departure, distance);
+  return true;
+}
+
+GapAnswer GapSearch::search(const GapQuery& query, const Deadline& deadline) {
+  query_ = &query;
+  narrow_ = query.distances->narrowEntries();
+  GapAnswer answer;
+  if (!begin()) return answer;
+  const Vertex goal = query.distances->goal();
+  while (arrived_ == kNoState && !queue_.empty()) {
+    const std::uint32_t index = queue_.pop();
+    const State& state = queue_[index];
+    if (isOutdated(state)) continue;
+    if (state.vertex == goal && state.time >= earliest_hold_) {
+      arrived_ = index;
+      break;
+    }
+    if (++answer.expansions % kPollEvery == 0 && deadline.expired()) {
+      answer.interrupted = true;
+      return answer;
+    }
+    expand(index);
+  }
+  if (arrived_ != kNoState) answer.path = queue_.pathTo(arrived_);
+  return answer;
+}
+
+}  // namespace split_mapf

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "search/bucket_queue.h"
+#include "search/reached_steps.h"
+#include "search/reservation_table.h"
+#include "split_mapf/core/deadline.h"
+#include "split_mapf/core/distance_table.h"
+#include "split_mapf/core/graph.h"
+#include "split_mapf/core/plan.h"
+
+namespace split_mapf {
+
+/// One robot's question among robots that have paths without conflicts.
+struct GapQuery {
+  Vertex start = kNoVertex;
+  const DistanceTable* distances = nullptr;  ///< to the goal
+  const ReservationTable* placed = nullptr;  ///< @pre without the robot that asks, see under_way
+  std::uint32_t departure = 0;               ///< stays at its start until this step
+  /// Whether `placed` knows that the robot is at its start at step `departure`, and nothing else of
+  /// what it does then or later: it is on its way already, and this is where it may change it.
+  bool under_way = false;
+  std::uint32_t latest_arrival = kForever - 1;  ///< longest path allowed [steps]
+};
+
+/// The question of a robot that keeps its path until step `kept`.
+inline GapQuery queryFrom(const Path& path, std::uint32_t kept, const DistanceTable& distances,
+                          const ReservationTable& placed, std::uint32_t latest_arrival) {
+  GapQuery query;
+  query.start = path[kept];
+  query.distances = &distances;
+  query.placed = &placed;
+  query.departure = kept;
+  query.under_way = true;
+  query.latest_arrival = latest_arrival;
+  return query;
+}
+
+/// The answer; `path` is empty when there is none (or when the deadline came: `interrupted`).
+struct GapAnswer {
+  Path path;
+  bool interrupted = false;
+  std::uint64_t expansions = 0;
+};
+
+/// Finds the path among placed robots that arrives first, holding the goal for good.
+/// Safe intervals as in SafeIntervalSearch, but as the placed robots have no conflicts, the gaps
+/// between the visits to a vertex are all there is: a state is a vertex and a step, and stands for
+/// the rest of the gap around it. What was reached is one bit a vertex and step, so that 64 steps
+/// of a neighbour are looked at in one go: free, and not reached yet.
+/// Keeps its memory between calls; not thread-safe. Memory: one bit for each step of the vertices
+/// that the search meets.
+class GapSearch {
+ public:
+  static constexpr std::uint32_t kNoState = 0xffffffffU;
+
+  struct State {
+    Vertex vertex;
+    std::uint32_t time;      // of the first step there
+    std::uint32_t leave_by;  // the next robot comes at this step; kForever: none, or too late
+    std::uint32_t parent;
+    std::uint32_t next = kNoState;  // in its bucket
+  };
+
+  explicit GapSearch(const Graph& graph);
+  GapAnswer search(const GapQuery& query, const Deadline& deadline);
+
+  /// What the last search came upon, in no order.
+  const std::vector<State>& states() const { return queue_.states(); }
+  /// Where and when the last search could be: all of it from which one could still arrive in time,
+  /// once there was no path. Another search may go on with it.
+  ReachedSteps& reached() { return reached_; }
+  /// No search for that query goes beyond this step.
+  std::uint32_t latestArrival() const { return latest_arrival_; }
+  /// Whether the state's gap was reached earlier, too.
+  bool isOutdated(const State& state) const {
+    return state.time > 0 && reached_(state.vertex, state.time - 1);
+  }
+
+ private:
+  bool begin();
+  bool isStartFree() const;
+  void expand(std::uint32_t index);
+  void move(const State& state, std::uint32_t index, Vertex to);
+  void push(std::uint32_t parent, Vertex v, std::uint32_t time, std::uint32_t distance);
+  std::uint32_t distanceOf(Vertex v) const {
+    return narrow_ != nullptr ? narrow_[v] : (*query_->distances)(v);
+  }
+
+  const Graph& graph_;
+  const GapQuery* query_ = nullptr;
+  const std::uint16_t* narrow_ = nullptr;  // the distances, where they have this form
+  std::uint32_t latest_arrival_ = 0;
+  std::uint32_t earliest_hold_ = 0;  // from this step on the goal can be held for good
+  std::uint32_t first_estimate_ = 0;
+  std::uint32_t estimate_ = 0;        // of the state that is expanded
+  std::uint32_t arrived_ = kNoState;  // a state that holds the goal as soon as any can
+  ReachedSteps reached_;
+  BucketQueue<State> queue_;  // over arrival
+};
+
+}  // namespace split_mapf

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "search/departures.h"
+#include "split_mapf/core/deadline.h"
+#include "split_mapf/core/instance.h"
+#include "split_mapf/core/plan.h"
+#include "split_mapf/core/reservations.h"
+
+namespace split_mapf {
+
+/// What replanSingly() may use.
+struct ReplanEffort {
+  std::uint64_t passes = 1;
+  std::uint32_t threads = 1;  ///< >= 1; the plan does not depend on it
+  /// Asked after each batch of searches with the states that they expanded and the steps that they
+  /// took off the sum of costs; no ends the passes. Null: it never does.
+  std::function<bool(std::uint64_t expansions, std::uint64_t gained)> go_on;
+  Departures departures = {};              ///< kept by the plan, as by what comes of it
+  const Reservations* reserved = nullptr;  ///< likewise; null: nothing is reserved
+};
+
+/// Plans robots of a valid plan anew, one at a time among the paths of all others: each gets the
+/// earliest arrival that they leave open. Robots whose delay is greatest come first; a pass over
+/// all delayed robots is repeated while it gains something. No robot arrives later, so neither cost
+/// can grow and every bound that held holds, and the plan is valid whenever the effort or the
+/// deadline ends the passes. The next robots of a pass, up to 32, are searched for side by side;
+/// who meets one of its batch on that one's new path is searched for again in the next batch. Cost:
+/// a GapSearch a delayed robot and pass, and few more; a table of the plan for each thread.
+/// @pre the plan is valid.
+Plan replanSingly(const Instance& instance, Plan plan, const ReplanEffort& effort,
+                  const Deadline& deadline);
+
+}  // namespace split_mapf

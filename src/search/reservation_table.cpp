@@ -1,0 +1,117 @@
+#include "search/reservation_table.h"
+
+#include <algorithm>
+
+namespace split_mapf {
+
+ReservationTable::ReservationTable(std::uint32_t vertices) : paths_(vertices), bits_(vertices, 0) {}
+
+ReservationTable::ReservationTable(std::uint32_t vertices, const Plan& plan)
+    : ReservationTable(vertices) {
+  for (std::uint32_t i = 0; i < plan.paths.size(); ++i) insert(i, plan.paths[i]);
+}
+
+void ReservationTable::insert(std::uint32_t robot, const Path& path) {
+  coverSteps(path.size());
+  paths_.insert(robot, path);
+  flip(path, 0);
+}
+
+void ReservationTable::remove(std::uint32_t robot, const Path& path) {
+  paths_.remove(robot, path);
+  flip(path, 0);
+}
+
+void ReservationTable::removeTail(std::uint32_t robot, const Path& path, std::uint32_t from) {
+  coverSteps(from + std::size_t{2});
+  paths_.removeTail(robot, path, from);
+  flip(path, from + 1);
+}
+
+void ReservationTable::insertTail(std::uint32_t robot, const Path& path, std::uint32_t from) {
+  coverSteps(std::max<std::size_t>(path.size(), from + std::size_t{2}));
+  paths_.insertTail(robot, path, from);
+  flip(path, from + 1);
+}
+
+bool ReservationTable::isFree(const Path& path, std::uint32_t from) const {
+  const std::vector<Stay>& at_goal = at(path.back());
+  if (!at_goal.empty() && at_goal.back().begin >= path.size()) return false;
+  for (auto t = static_cast<std::uint32_t>(path.size() - 1); t > from; --t) {
+    if (isTaken(path[t], t) || oncoming(path[t - 1], path[t], t) != nullptr) return false;
+  }
+  return true;
+}
+
+void ReservationTable::removeHead(std::uint32_t robot, const Path& path, std::uint32_t from) {
+  paths_.removeHead(robot, path, from);
+  flipSteps(path, 0, from + 1);
+}
+
+std::uint32_t ReservationTable::takenAfter(Vertex v, std::uint32_t t, std::uint32_t last) const {
+  std::uint64_t steps = ~std::uint64_t{0} << (t % 64) << 1U;
+  for (std::uint32_t word = t / 64; word <= last / 64; ++word) {
+    const std::uint64_t seen = taken(v, word) & steps;
+    if (seen != 0) {
+      return std::min(64 * word + static_cast<std::uint32_t>(__builtin_ctzll(seen)), last + 1);
+    }
+    steps = ~std::uint64_t{0};
+  }
+  return last + 1;
+}
+
+std::uint32_t ReservationTable::freeSince(Vertex v, std::uint32_t t) const {
+  if (t == 0) return 0;
+  std::uint64_t steps = ~std::uint64_t{0} >> (63 - (t - 1) % 64);
+  for (std::uint32_t word = (t - 1) / 64 + 1; word-- > 0;) {
+    const std::uint64_t seen = taken(v, word) & steps;
+    if (seen != 0) return 64 * (word + 1) - static_cast<std::uint32_t>(__builtin_clzll(seen));
+    steps = ~std::uint64_t{0};
+  }
+  return 0;
+}
+
+/// Steps from .. to-1. A robot is alone where it is, so its bits are all unset or all set.
+void ReservationTable::flipSteps(const Path& path, std::uint32_t from, std::uint32_t to) {
+  for (std::uint32_t t = from; t < to; ++t) {
+    bits_[std::size_t{positionAt(path, t)} * words_ + t / 64] ^= std::uint64_t{1} << (t % 64);
+  }
+}
+
+/// From step `from` on.
+void ReservationTable::flip(const Path& path, std::uint32_t from) {
+  const std::uint32_t size = std::max(static_cast<std::uint32_t>(path.size()), from);
+  flipSteps(path, from, size);
+  // At its goal for good.
+  std::uint64_t* const row = bits_.data() + std::size_t{path.back()} * words_;
+  if (size % 64 != 0) row[size / 64] ^= ~std::uint64_t{0} << (size % 64);
+  for (std::uint32_t word = (size + 63) / 64; word < words_; ++word) row[word] = ~row[word];
+}
+
+void ReservationTable::coverSteps(std::size_t steps) {
+  if (steps <= std::size_t{64} * words_) return;
+  const auto needed = static_cast<std::uint32_t>((steps + 63) / 64);
+  const std::uint32_t words = std::max(needed, words_ + words_ / 4 + 1);
+  const std::size_t vertices = bits_.size() / words_;
+  std::vector<std::uint64_t> bits(vertices * words);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const auto row = bits_.begin() + static_cast<std::ptrdiff_t>(v * words_);
+    const auto end =
+        std::copy(row, row + words_, bits.begin() + static_cast<std::ptrdiff_t>(v * words));
+    std::fill(end, bits.begin() + static_cast<std::ptrdiff_t>((v + 1) * words),
+              everAfter(row[words_ - 1]));
+  }
+  bits_ = std::move(bits);
+  words_ = words;
+}
+
+const Stay* ReservationTable::oncoming(Vertex from, Vertex to, std::uint32_t t) const {
+  if (!isTaken(to, t - 1) || !isTaken(from, t)) return nullptr;
+  const std::vector<Stay>& stays = at(to);
+  const auto before = std::partition_point(stays.begin(), stays.end(),
+                                           [t](const Stay& stay) { return stay.end < t; });
+  const bool comes = before != stays.end() && before->end == t && before->next == from;
+  return comes ? &*before : nullptr;
+}
+
+}  // namespace split_mapf

@@ -1,0 +1,81 @@
+// Large fleets: a robot dies in the crowd, and all others who still have a way arrive.
+
+#include <algorithm>
+#include <iostream>
+
+#include <gtest/gtest.h>
+
+#include "fleet/fleet_world.h"
+#include "split_mapf/generate/generator.h"
+#include "support/long_run.h"
+#include "support/small_instances.h"
+
+namespace split_mapf {
+namespace {
+
+using test::FleetWorld;
+
+GeneratorOptions crowdOf(std::uint32_t width, std::uint32_t height, std::uint32_t robots) {
+  GeneratorOptions options;
+  options.kind = MapKind::kWarehouse;
+  options.width = width;
+  options.height = height;
+  options.robots = robots;
+  options.seed = 1;
+  return options;
+}
+
+/// One draw: who dies, and when. @param took  what each plan made anew took [s of CPU].
+void expectAllOthersArrive(const Instance& instance, const Plan& plan, std::uint64_t draw,
+                           std::vector<double>& took) {
+  SCOPED_TRACE("draw " + std::to_string(draw));
+  FleetOptions options;
+  options.replan_period_sec = instance.robots() > 500 ? 60 : 5;
+  options.budget.seed = draw;
+  FleetWorld world(instance.sharedGrid(), plan, options, draw);
+  world.request_.straighten = true;
+  world.delay_one_in_ = 2000;
+  const int when = 20 + static_cast<int>(drawBelow(world.engine_, 300));
+  for (int i = 0; i < when; ++i) world.tick();
+  const std::size_t before = world.anew_sec_.size();
+  const std::string victim = "r" + std::to_string(drawBelow(world.engine_, instance.robots()));
+  world.die(victim, draw % 2 == 0);
+  ASSERT_TRUE(world.run(20000)) << world.fleet_->trouble();
+  EXPECT_TRUE(world.checker_.isClear()) << world.checker_.closest();
+  EXPECT_EQ(world.fleet_->trouble(), "");
+  std::uint32_t without_way = 0;
+  const std::vector<FleetRobotStatus> all = world.fleet_->status(world.now_);
+  for (std::uint32_t i = 0; i < all.size(); ++i) {
+    if (world.fleet_->id(i) == victim) continue;
+    EXPECT_EQ(all[i].absence, Absence::kNone) << world.fleet_->id(i);
+    without_way += all[i].fault == GoalFault::kNone ? 0 : 1;
+    if (all[i].fault == GoalFault::kNone) {
+      EXPECT_TRUE(all[i].arrived) << world.fleet_->id(i);
+    }
+  }
+  EXPECT_LE(without_way, 1U) << "in a warehouse a robot closes no more than a goal";
+  took.insert(took.end(), world.anew_sec_.begin() + before, world.anew_sec_.end());
+}
+
+TEST(FleetCrowd, GoesOnWithoutARobotThatDies) {
+  const bool is_long = test::isLongRun();
+  const Instance instance =
+      test::generatedInstance(is_long ? crowdOf(161, 63, 1000) : crowdOf(48, 24, 100));
+  Executor executor(2);
+  const Planner planner(builtinSolvers(), executor);
+  PlanRequest request;
+  request.objective = Objective::kSumOfCosts;
+  const PlanReport report = planner.plan(instance, request, {});
+  ASSERT_TRUE(report.plan) << report.message;
+  std::vector<double> took;
+  for (std::uint64_t draw = 0; draw < (is_long ? 20U : 2U); ++draw) {
+    expectAllOthersArrive(instance, *report.plan, draw, took);
+  }
+  ASSERT_FALSE(took.empty());
+  std::sort(took.begin(), took.end());
+  std::cout << took.size() << " plans made anew: median " << took[took.size() / 2]
+            << " s of CPU, worst " << took.back() << " s" << std::endl;
+}
+
+}  // namespace
+}  // namespace split_mapf

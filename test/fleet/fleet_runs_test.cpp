@@ -1,0 +1,202 @@
+// Fleets of discs with everything that goes wrong, drawn from a seed.
+
+#include <iostream>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "fleet/fleet_world.h"
+#include "support/ascii_grid.h"
+#include "support/long_run.h"
+#include "support/random_plan.h"
+
+namespace split_mapf {
+namespace {
+
+using test::FleetWorld;
+
+FleetOptions optionsOf(std::uint64_t seed) {
+  FleetOptions options;
+  options.release = seed % 3 == 0 ? 0.7071 : 0.5;
+  options.replan_period_sec = 3;
+  options.progress_timeout_sec = 2;
+  options.budget = {3000, seed};
+  options.release_ahead = 1 + static_cast<std::uint32_t>(seed % 3);
+  return options;
+}
+
+std::vector<std::vector<std::string>> maps() {
+  return {
+      {"........", ".##..##.", "........", ".##..##.", "........"},
+      {"......", "......", "......", "......", "......"},
+      {".........", ".#.#.#.#.", ".........", ".#.#.#.#.", "........."},
+      {"............", ".####..####.", "............", "............", ".####..####.",
+       "............"},
+      {"...........", "####.#.####", "...........", "...........", "####.#.####", "..........."}};
+}
+
+struct Scene {
+  std::shared_ptr<const Grid> grid;
+  Plan plan;
+};
+
+Scene sceneOf(std::uint64_t seed) {
+  RandomEngine engine(seed);
+  const auto all = maps();
+  Scene run;
+  run.grid = test::gridFromAscii(all[seed % all.size()]);
+  run.plan = test::randomValidPlan(*run.grid, 4 + static_cast<std::uint32_t>(drawBelow(engine, 6)),
+                                   14, engine);
+  return run;
+}
+
+/// A fleet of discs on a scene that belongs to a seed.
+struct Drive {
+  explicit Drive(std::uint64_t number)
+      : seed(number),
+        scene(sceneOf(number)),
+        world(scene.grid, scene.plan, optionsOf(number), number) {}
+  void ticks(std::uint64_t most) {
+    for (std::uint64_t i = 0; i < most; ++i) world.tick();
+  }
+  void die(const std::string& id, bool silent) {
+    world.die(id, silent);
+    dead.insert(id);
+  }
+  /// A robot that is drawn.
+  std::string someone() {
+    return "r" + std::to_string(drawBelow(world.engine_, scene.plan.paths.size()));
+  }
+  std::vector<bool> someCells(int count) {
+    std::vector<bool> cells(scene.grid->size(), false);
+    for (int i = 0; i < count; ++i) cells[drawBelow(world.engine_, cells.size())] = true;
+    return cells;
+  }
+  std::uint64_t seed;
+  Scene scene;
+  FleetWorld world;
+  std::set<std::string> dead;
+  bool closes = false;  // cells stay closed
+};
+
+/// Whoever has a way has come to its goal, nobody but the dead dropped out, and no robot was ever
+/// too close.
+void expectWell(Drive& run) {
+  FleetWorld& world = run.world;
+  ASSERT_TRUE(world.run(6000)) << world.fleet_->trouble();
+  EXPECT_TRUE(world.checker_.isClear()) << world.checker_.closest();
+  EXPECT_EQ(world.fleet_->trouble(), "");
+  const std::vector<FleetRobotStatus> all = world.fleet_->status(world.now_);
+  for (std::uint32_t i = 0; i < all.size(); ++i) {
+    if (run.dead.count(world.fleet_->id(i)) > 0) continue;
+    EXPECT_EQ(all[i].absence, Absence::kNone) << world.fleet_->id(i);
+    // The dead, and closed cells, may be on another one's goal or in its only way.
+    if (all[i].fault != GoalFault::kNone) {
+      EXPECT_TRUE(!run.dead.empty() || run.closes) << world.fleet_->id(i);
+    } else {
+      EXPECT_TRUE(all[i].arrived) << world.fleet_->id(i);
+    }
+  }
+}
+
+/// Runs what is to happen for each seed. @param more  so many times as many in a long run.
+template <typename What>
+void forSeeds(std::uint64_t seeds, const What& what, std::uint64_t more = 20) {
+  const std::uint64_t all = test::isLongRun() ? more * seeds : seeds;
+  for (std::uint64_t seed = 0; seed < all && !::testing::Test::HasFatalFailure(); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Drive run(seed);
+    what(run);
+  }
+}
+
+TEST(FleetRuns, BringLateRobotsToTheirGoals) {
+  forSeeds(40, [](Drive& run) {
+    run.world.delay_one_in_ = 150;
+    expectWell(run);
+    for (const ReportFate fate : run.world.fates_) ASSERT_EQ(fate, ReportFate::kTaken);
+  });
+}
+
+TEST(FleetRuns, GoOnWithoutTheDead) {
+  std::uint32_t anew = 0;
+  forSeeds(60, [&](Drive& run) {
+    FleetWorld& world = run.world;
+    world.delay_one_in_ = 150;
+    run.ticks(drawBelow(world.engine_, 60));
+    run.die(run.someone(), run.seed % 2 == 0);
+    expectWell(run);
+    anew += world.anew_;
+  });
+  EXPECT_GT(anew, 10U);
+}
+
+/// Nobody conducts for a while, three times.
+void takeUpAgain(Drive& run) {
+  FleetWorld& world = run.world;
+  world.delay_one_in_ = 200;
+  for (int times = 0; times < 3; ++times) {
+    run.ticks(drawBelow(world.engine_, 60));
+    if (times == 1 && run.seed % 3 == 0) run.die("r0", true);
+    world.restart();
+  }
+  expectWell(run);
+}
+
+TEST(FleetRuns, AreTakenUpAgainWhenTheirConductorDies) { forSeeds(60, takeUpAgain); }
+
+TEST(FleetRuns, GoRoundWhereAllGoodPlansRotate) {
+  // The dead robot closes half of the map, and three others have to let a fourth one pass.
+  Drive run(945);
+  takeUpAgain(run);
+}
+
+TEST(FleetRuns, LeadAroundBlockedCellsAndPausedRobots) {
+  forSeeds(40, [](Drive& run) {
+    FleetWorld& world = run.world;
+    run.ticks(25);
+    const std::vector<bool> none(run.scene.grid->size(), false);
+    world.fleet_->setBlocked(run.someCells(3));
+    world.fleet_->pause(1, true);
+    run.ticks(100);
+    EXPECT_FALSE(world.fleet_->isFinished()) << "a robot is paused";
+    world.fleet_->pause(1, false);
+    world.fleet_->setBlocked(none);
+    expectWell(run);
+  });
+}
+
+/// Robots late by up to a tenth of the time, deaths, and cells that are closed for a while or for
+/// good, while robots drive.
+TEST(FleetRuns, HaveNoCollisionsAndNoDeadlocks) {
+  std::uint32_t deaths = 0;
+  std::uint32_t closures = 0;
+  std::uint32_t anew = 0;
+  std::uint32_t runs = 0;
+  forSeeds(
+      50,
+      [&](Drive& run) {
+        FleetWorld& world = run.world;
+        // Each delay takes 4.5 s in the mean.
+        const int one_in[] = {0, 4500, 900, 405};
+        world.delay_one_in_ = one_in[drawBelow(world.engine_, 4)];
+        for (std::uint64_t times = drawBelow(world.engine_, 4); times > 0; --times) {
+          run.ticks(drawBelow(world.engine_, 60));
+          const std::uint64_t what = drawBelow(world.engine_, 3);
+          if (what == 0) run.die(run.someone(), drawBelow(world.engine_, 2) == 0);
+          run.closes = what == 0 ? run.closes : what == 1;
+          if (what > 0) world.fleet_->setBlocked(run.someCells(what == 1 ? 3 : 0));
+          ++(what == 0 ? deaths : closures);
+        }
+        expectWell(run);
+        anew += world.anew_;
+        ++runs;
+      },
+      200);
+  std::cout << runs << " runs, " << deaths << " deaths, " << closures
+            << " changes of closed cells, " << anew << " plans made anew" << std::endl;
+  EXPECT_GT(anew, 10U);
+}
+
+}  // namespace
+}  // namespace split_mapf

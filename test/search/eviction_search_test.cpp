@@ -1,0 +1,262 @@
+#include "search/eviction_search.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "split_mapf/core/random.h"
+#include "support/ascii_grid.h"
+#include "support/meeting.h"
+
+namespace split_mapf {
+namespace {
+
+// Everything begins at this step in half of the cases: the searches keep 64 steps in a word.
+constexpr std::uint32_t kLateBegin = 55;
+constexpr std::uint32_t kHorizon = kLateBegin + 30;  // all arrive by then
+constexpr std::uint32_t kNobody = 0xffffffffU;
+
+/// A random case: robots on paths without conflicts, what it costs to evict each, and a question.
+struct Case {
+  std::shared_ptr<const Grid> grid;
+  std::vector<Path> placed;
+  std::vector<std::uint32_t> weights;
+  Vertex start = 0;
+  Vertex goal = 0;
+  std::uint32_t departure = 0;
+  std::uint32_t latest_arrival = 0;
+};
+
+Path randomWalk(const Grid& grid, RandomEngine& engine, std::uint32_t begin) {
+  Path path(begin + 1, static_cast<Vertex>(drawBelow(engine, grid.size())));
+  for (std::uint64_t steps = drawBelow(engine, 12); steps > 0; --steps) {
+    const VertexRange around = grid.graph().neighbours(path.back());
+    const std::uint64_t pick = drawBelow(engine, around.size() + 1);
+    path.push_back(pick == around.size() ? path.back() : around.begin()[pick]);
+  }
+  path.resize(costOf(path) + 1);
+  return path;
+}
+
+Case randomCase(std::uint64_t seed) {
+  RandomEngine engine(seed);
+  Case c;
+  std::vector<bool> free(20);
+  for (std::size_t i = 0; i < free.size(); ++i) free[i] = drawBelow(engine, 5) > 0;
+  free[0] = free[1] = true;
+  c.grid = std::make_shared<const Grid>(5, 4, free);
+  const std::uint32_t begin = seed % 2 == 0 ? 0 : kLateBegin;
+  for (std::uint64_t tries = drawBelow(engine, 12); tries > 0; --tries) {
+    const Path path = randomWalk(*c.grid, engine, begin);
+    if (std::any_of(c.placed.begin(), c.placed.end(),
+                    [&](const Path& other) { return test::meet(path, other); })) {
+      continue;
+    }
+    c.placed.push_back(path);
+    c.weights.push_back(static_cast<std::uint32_t>(1 + drawBelow(engine, 9)));
+  }
+  c.start = static_cast<Vertex>(drawBelow(engine, c.grid->size()));
+  c.goal = static_cast<Vertex>(drawBelow(engine, c.grid->size()));
+  c.latest_arrival = begin + static_cast<std::uint32_t>(drawBelow(engine, kHorizon - kLateBegin));
+  // Who departs early has time enough to go anywhere, or to wait for long.
+  if (drawBelow(engine, 3) > 0) c.departure = begin;
+  if (drawBelow(engine, 3) == 0) c.departure += static_cast<std::uint32_t>(drawBelow(engine, 6));
+  return c;
+}
+
+std::uint32_t occupant(const Case& c, Vertex v, std::uint32_t t) {
+  for (std::uint32_t i = 0; i < c.placed.size(); ++i) {
+    if (positionAt(c.placed[i], t) == v) return i;
+  }
+  return kNobody;
+}
+
+/// What a step costs: whom it meets, unless that robot comes along, and whom it swaps with.
+std::uint32_t stepWeight(const Case& c, Vertex from, Vertex to, std::uint32_t arrival) {
+  const std::uint32_t before = occupant(c, from, arrival - 1);
+  const std::uint32_t there = occupant(c, to, arrival);
+  std::uint32_t weight = 0;
+  if (there != kNobody && there != before) weight += c.weights[there];
+  if (from == to) return weight;
+  const std::uint32_t opposite = occupant(c, to, arrival - 1);
+  if (opposite != kNobody && occupant(c, from, arrival) == opposite) weight += c.weights[opposite];
+  return weight;
+}
+
+/// What staying for good costs: everybody who comes later.
+std::uint32_t holdWeight(const Case& c, std::uint32_t arrival) {
+  std::uint32_t weight = 0;
+  std::uint32_t before = occupant(c, c.goal, arrival);
+  for (std::uint32_t t = arrival + 1; t <= kHorizon; ++t) {
+    const std::uint32_t now = occupant(c, c.goal, t);
+    if (now != kNobody && now != before) weight += c.weights[now];
+    before = now;
+  }
+  return weight;
+}
+
+using Cost = std::pair<std::uint32_t, std::uint32_t>;  // weight, arrival
+
+/// The least cost by plain search over all (vertex, step) pairs from step `first` on.
+std::optional<Cost> leastCost(const Case& c, bool may_evict, std::uint32_t first = 0) {
+  std::map<Vertex, std::uint32_t> now;
+  std::optional<Cost> best;
+  const auto arrive = [&](std::uint32_t weight, std::uint32_t t) {
+    const Cost cost{weight + holdWeight(c, t), t};
+    if (!may_evict && cost.first > 0) return;
+    if (!best || cost < *best) best = cost;
+  };
+  const std::uint32_t at_start = occupant(c, c.start, first);
+  if (at_start != kNobody && !may_evict) return best;
+  now[c.start] = at_start == kNobody ? 0 : c.weights[at_start];
+  for (std::uint32_t t = first; t <= c.latest_arrival; ++t) {
+    if (now.count(c.goal) > 0 && t >= c.departure) arrive(now[c.goal], t);
+    std::map<Vertex, std::uint32_t> next;
+    const auto reach = [&](Vertex v, std::uint32_t weight) {
+      if (!may_evict && weight > 0) return;
+      const auto known = next.find(v);
+      if (known == next.end() || weight < known->second) next[v] = weight;
+    };
+    for (const auto& [v, weight] : now) {
+      reach(v, weight + stepWeight(c, v, v, t + 1));
+      if (t < c.departure) continue;
+      for (const Vertex u : c.grid->graph().neighbours(v)) {
+        reach(u, weight + stepWeight(c, v, u, t + 1));
+      }
+    }
+    now = std::move(next);
+  }
+  return best;
+}
+
+Cost costInCase(const Case& c, const Path& path) {
+  const std::uint32_t at_start = occupant(c, path.front(), 0);
+  std::uint32_t weight = at_start == kNobody ? 0 : c.weights[at_start];
+  for (std::uint32_t t = 1; t < path.size(); ++t) {
+    weight += stepWeight(c, path[t - 1], path[t], t);
+  }
+  const auto arrival = static_cast<std::uint32_t>(path.size() - 1);
+  return {weight + holdWeight(c, arrival), arrival};
+}
+
+struct Run {
+  bool may_evict;
+  bool hasty;
+};
+
+class RandomCases : public ::testing::TestWithParam<Run> {};
+
+TEST_P(RandomCases, LeastWeightThenEarliestArrival) {
+  const auto [may_evict, hasty] = GetParam();
+  std::uint32_t found = 0;
+  for (std::uint64_t seed = 0; seed < 4000; ++seed) {
+    const Case c = randomCase(seed);
+    ReservationTable table(c.grid->size());
+    for (std::uint32_t i = 0; i < c.placed.size(); ++i) table.insert(i, c.placed[i]);
+    const DistanceTable distances(c.grid->graph(), c.goal);
+    EvictionSearch search(c.grid->graph());
+    EvictionQuery query;
+    query.start = c.start;
+    query.distances = &distances;
+    query.placed = &table;
+    query.weights = may_evict ? &c.weights : nullptr;
+    query.departure = c.departure;
+    query.latest_arrival = c.latest_arrival;
+    query.hasty = hasty;
+    const GapAnswer answer = search.search(query, Deadline());
+    const std::optional<Cost> best = leastCost(c, may_evict);
+    ASSERT_EQ(!answer.path.empty(), best.has_value()) << "seed " << seed;
+    if (!best) continue;
+    ++found;
+    EXPECT_EQ(answer.path.front(), c.start);
+    EXPECT_EQ(answer.path.back(), c.goal);
+    const Cost cost = costInCase(c, answer.path);
+    EXPECT_EQ(cost.first, best->first) << "seed " << seed;
+    EXPECT_LE(cost.second, c.latest_arrival) << "seed " << seed;
+    // Who evicts nobody is never hasty.
+    if (!hasty || cost.first == 0) {
+      EXPECT_EQ(cost, *best) << "seed " << seed;
+    }
+    std::vector<std::uint32_t> met;
+    for (std::uint32_t i = 0; i < c.placed.size(); ++i) {
+      if (test::meet(c.placed[i], answer.path)) met.push_back(i);
+    }
+    EXPECT_EQ(robotsInTheWay(table.paths(), answer.path), met) << "seed " << seed;
+  }
+  EXPECT_GT(found, 1000U);
+}
+
+INSTANTIATE_TEST_SUITE_P(EvictionSearch, RandomCases,
+                         ::testing::Values(Run{false, false}, Run{true, false}, Run{true, true}),
+                         [](const ::testing::TestParamInfo<Run>& run) {
+                           if (!run.param.may_evict) return "MayNotEvict";
+                           return run.param.hasty ? "MayEvictInHaste" : "MayEvict";
+                         });
+
+TEST(GapSearch, GoesOnFromWhereARobotIsUnderWay) {
+  std::uint32_t found = 0;
+  for (std::uint64_t seed = 0; seed < 4000; ++seed) {
+    Case c = randomCase(seed);
+    if (c.placed.empty()) continue;
+    ReservationTable table(c.grid->size());
+    for (std::uint32_t i = 0; i < c.placed.size(); ++i) table.insert(i, c.placed[i]);
+    const auto robot = static_cast<std::uint32_t>(c.placed.size() - 1);
+    const Path before = c.placed.back();
+    c.placed.pop_back();
+    RandomEngine engine(seed);
+    const auto kept =
+        beginOfStay(before, static_cast<std::uint32_t>(drawBelow(engine, before.size())));
+    table.removeTail(robot, before, kept);
+    c.start = before[kept];
+    c.departure = kept;
+    c.latest_arrival += kept;
+    const DistanceTable distances(c.grid->graph(), c.goal);
+    GapQuery query;
+    query.start = c.start;
+    query.distances = &distances;
+    query.placed = &table;
+    query.departure = kept;
+    query.under_way = true;
+    query.latest_arrival = c.latest_arrival;
+    const Path path = GapSearch(c.grid->graph()).search(query, Deadline()).path;
+    const std::optional<Cost> best = leastCost(c, false, kept);
+    ASSERT_EQ(!path.empty(), best.has_value()) << "seed " << seed;
+    if (!best) continue;
+    ++found;
+    EXPECT_EQ(path.size() - 1, best->second) << "seed " << seed;
+    for (std::uint32_t t = kept; t < path.size(); ++t) {
+      EXPECT_EQ(occupant(c, path[t], t), kNobody) << "seed " << seed;
+      const std::uint32_t weight = t > kept ? stepWeight(c, path[t - 1], path[t], t) : 0;
+      EXPECT_EQ(weight, 0U) << "seed " << seed;
+    }
+  }
+  EXPECT_GT(found, 1000U);
+}
+
+TEST(EvictionSearch, OneSearchServesManyQuestions) {
+  const Case c = randomCase(7);
+  ReservationTable table(c.grid->size());
+  EvictionSearch search(c.grid->graph());
+  for (Vertex goal = 0; goal < c.grid->size(); ++goal) {
+    const DistanceTable distances(c.grid->graph(), goal);
+    EvictionQuery query;
+    query.start = c.start;
+    query.distances = &distances;
+    query.placed = &table;
+    const Path path = search.search(query, Deadline()).path;
+    if (distances(c.start) == DistanceTable::kUnreachable) {
+      EXPECT_TRUE(path.empty());
+    } else {
+      EXPECT_EQ(path.size(), distances(c.start) + 1U);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace split_mapf
