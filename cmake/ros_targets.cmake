@@ -18,7 +18,7 @@ foreach(room server replay fleet)
 endforeach()
 
 foreach(node planner_node replay_node executor_node fake_robots_node)
-  add_executable(${node} src/node/${node}.cpp src/node/run_node.cpp)
+  add_executable(${node} src/node/${node}.cpp src/node/run_node.cpp src/node/end_signal.cpp)
   target_include_directories(${node} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
   split_mapf_compile_options(${node})
 endforeach()
@@ -34,7 +34,7 @@ find_library(MOSQUITTO_LIBRARY mosquitto)
 mark_as_advanced(MOSQUITTO_INCLUDE_DIR MOSQUITTO_LIBRARY)
 if(MOSQUITTO_INCLUDE_DIR AND MOSQUITTO_LIBRARY)
   add_executable(vda5050_bridge_node
-    src/node/vda5050_bridge_node.cpp src/node/mqtt_client.cpp src/node/run_node.cpp)
+    src/node/vda5050_bridge_node.cpp src/node/mqtt_client.cpp src/node/run_node.cpp src/node/end_signal.cpp)
   target_include_directories(vda5050_bridge_node
     PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src ${MOSQUITTO_INCLUDE_DIR})
   target_link_libraries(vda5050_bridge_node PRIVATE split_mapf_ros_fleet ${MOSQUITTO_LIBRARY})

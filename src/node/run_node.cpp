@@ -2,7 +2,7 @@
 
 #include <exception>
 
-#include "ros/server/end_signal.h"
+#include "node/end_signal.h"
 
 namespace split_mapf {
 

@@ -1,4 +1,4 @@
-#include "ros/server/end_signal.h"
+#include "node/end_signal.h"
 
 #include <chrono>
 #include <csignal>
