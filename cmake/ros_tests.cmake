@@ -13,10 +13,11 @@ split_mapf_add_tests(ros FOLDERS ros LIBRARIES split_mapf_ros_server split_mapf_
 foreach(name plan_server queue recall strange_goals answers discs)
   add_rostest_gtest(${name}_rostest test/ros/${name}.test
     test/ros/${name}_rostest.cpp test/ros/rostest_main.cpp)
-  target_include_directories(${name}_rostest PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/test)
+  target_include_directories(${name}_rostest PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/test ${CMAKE_CURRENT_SOURCE_DIR}/src)
   target_link_libraries(${name}_rostest split_mapf_ros_test_support split_mapf_test_support ${GTEST_LIBRARIES})
   target_compile_options(${name}_rostest PRIVATE ${SPLIT_MAPF_WARNINGS} -O1)
 endforeach()
+target_link_libraries(queue_rostest split_mapf_ros_server)
 target_sources(plan_server_rostest PRIVATE test/ros/plan_server_bad_goals.cpp)
 
 foreach(name client replay recording lifecycle sim_time launch big_maps termination)
