@@ -17,6 +17,12 @@ target_include_directories(split_mapf_core
 target_link_libraries(split_mapf_core
   PUBLIC Threads::Threads
   PRIVATE Boost::boost ${YAML_CPP_LIBRARIES} nlohmann_json::nlohmann_json PNG::PNG ZLIB::ZLIB)
+# Animations need giflib; without it the command says so.
+find_package(GIF 5)
+if(GIF_FOUND)
+  target_compile_definitions(split_mapf_core PRIVATE SPLIT_MAPF_HAS_GIF)
+  target_link_libraries(split_mapf_core PRIVATE GIF::GIF)
+endif()
 split_mapf_compile_options(split_mapf_core)
 
 include(cmake/ilp.cmake)

@@ -37,6 +37,10 @@ Canvas::Canvas(std::uint32_t width_px, std::uint32_t height_px, Colour backgroun
   coverage_.assign(pixels, 0);
 }
 
+Canvas::Canvas(Picture picture) : picture_(std::move(picture)) {
+  coverage_.assign(picture_.pixels.size(), 0);
+}
+
 void Canvas::fillRectangle(std::uint32_t x, std::uint32_t y, std::uint32_t width,
                            std::uint32_t height, Colour colour) {
   for (std::uint32_t row = y; row < y + height; ++row) {

@@ -24,6 +24,9 @@ class Canvas {
  public:
   Canvas(std::uint32_t width_px, std::uint32_t height_px, Colour background);
 
+  /// Draws on over a picture that is there.
+  explicit Canvas(Picture picture);
+
   /// Fills whole pixels, from (x, y) on, opaquely. @pre they lie on the canvas.
   void fillRectangle(std::uint32_t x, std::uint32_t y, std::uint32_t width, std::uint32_t height,
                      Colour colour);

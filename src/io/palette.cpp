@@ -39,6 +39,11 @@ Colour robotColour(std::size_t robot) {
   return perceptualColour(kLightness[robot % kLightness.size()], 0.17, hue - std::floor(hue));
 }
 
+Colour heatColour(double share) {
+  const double s = std::clamp(share, 0.0, 1.0);
+  return perceptualColour(0.93 - 0.5 * s, 0.06 + 0.12 * std::sqrt(s), 0.27 - 0.2 * s);
+}
+
 Colour darkened(Colour colour, double share) {
   const auto mix = [share](std::uint8_t c) {
     return static_cast<std::uint8_t>(std::lround(c * (1 - share)));

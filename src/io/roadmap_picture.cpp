@@ -4,13 +4,13 @@
 #include <string>
 
 #include "io/canvas.h"
+#include "io/palette.h"
 #include "io/raster_scale.h"
 #include "split_mapf/core/error.h"
 
 namespace split_mapf {
 namespace {
 
-constexpr Colour kObstacleColour{58, 64, 79};
 constexpr Colour kTooNearColour{226, 225, 221};
 constexpr Colour kUnreachedColour{240, 150, 135};
 constexpr Colour kReachedColour{251, 250, 247};

@@ -113,6 +113,34 @@ class BrokenPlanTest(CommandTest):
             self.expect_refusal(["--scale", f"'{scale}'"], "render", *self.files("p"),
                                 "--plan", "plan.json", "--output", "x.png", "--scale", scale)
 
+    def test_render_shows_a_moment_a_film_and_how_cells_are_used(self):
+        self.write_plan([[0, 0], [1, 0], [2, 0]], [[0, 2], [1, 2], [2, 2]])
+        render = ["render", *self.files("p"), "--plan", "plan.json"]
+        pictures = set()
+        for name, options in [("at0.png", ["--at", 0]), ("at1.png", ["--at", 1]),
+                              ("far.png", ["--at", 1e6]), ("heat.png", ["--heat"]),
+                              ("paths.png", [])]:
+            self.expect(0, *render, "--output", name, *options)
+            with open(self.path(name), "rb") as file:
+                pictures.add(file.read())
+        self.assertEqual(len(pictures), 5)
+        text = self.expect(0, *render, "--animate", "film.gif", "--duration", 3).stdout
+        self.assertRegex(text, r"^film.gif: \d+x\d+ pixels, 4 s\n$")
+        with open(self.path("film.gif"), "rb") as file:
+            self.assertEqual(file.read(6), b"GIF89a")
+
+    def test_render_refuses_views_that_do_not_go_together(self):
+        self.write_plan([[0, 0], [1, 0], [2, 0]])
+        render = ["render", *self.files("p"), "--plan", "plan.json"]
+        self.expect_refusal(["--output", "--animate"], *render)
+        self.expect_refusal(["--at", "--heat"], *render, "--output", "x.png", "--at", 1, "--heat")
+        self.expect_refusal(["--duration", "--animate"], *render, "--output", "x.png",
+                            "--duration", 3)
+        self.expect_refusal(["--duration", "6000"], *render, "--animate", "x.gif",
+                            "--duration", 1e6)
+        self.expect_refusal(["--at", "-1"], *render, "--output", "x.png", "--at", -1)
+        self.expect_refusal(["/no/such"], *render, "--animate", "/no/such/x.gif")
+
 
 if __name__ == "__main__":
     unittest.main()
