@@ -200,6 +200,7 @@ class PlanCall {
 
   void write(const PlanReport& report) const {
     if (options_.output_file.empty() && !problem_) return;
+    if (options_.viewer && !report.plan) return;  // a viewer knows no reasons
     std::ostringstream text;
     writeText(text, report);  // robots that have size are checked here, before anything is said
     if (options_.output_file.empty()) return;
@@ -215,6 +216,7 @@ class PlanCall {
   void writeText(std::ostream& out, const PlanReport& report) const {
     const Grid no_grid(1, 1, {true});  // stands in where memory ran out before the map was read
     const Grid& grid = instance_ ? instance_->grid() : no_grid;
+    if (options_.viewer) return writeForViewer(out, *options_.viewer, *instance_, *report.plan);
     if (!problem_) return writePlanJson(out, grid, report);
     writePlanJson(out, grid, report,
                   discResultOf(discs_->map, discs_->robots, *problem_,

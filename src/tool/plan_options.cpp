@@ -56,6 +56,7 @@ void declarePlanOptions(CommandLine& line) {
   line.offer("output", "FILE", "write the result as JSON; - for standard output");
   line.offerFlag("write-better",
                  "write the --output file with each better plan, while --refine goes on");
+  declareViewerFormat(line);
   line.offerFlag("progress", "show a progress line also where standard error is no terminal");
   line.offerFlag("quiet", "print nothing but errors");
 }
@@ -94,6 +95,10 @@ PlanOptions readPlanOptions(const CommandLine& line) {
   options.write_better = line.has("write-better");
   if (options.write_better && (options.output_file.empty() || options.output_file == "-")) {
     throw OptionError("option --write-better needs a file: --output FILE");
+  }
+  options.viewer = readViewerFormat(line);
+  if (options.viewer && options.on_roadmap) {
+    throw OptionError("option --export needs robots without size");
   }
   options.quiet = line.has("quiet");
   if (options.quiet && line.has("progress")) {

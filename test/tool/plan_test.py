@@ -27,6 +27,37 @@ class PlanTest(CommandTest):
         self.assertLess(refined["runtime_s"], 10)
         self.expect(0, "validate", *self.files("g"), "--plan", "g.json")
 
+    def test_exports_for_viewers(self):
+        self.write_problem("p", ["....", ".@.."], [((0, 0), (3, 1)), ((3, 0), (2, 1))])
+        self.plan(0, "p")
+        paths = self.read_json("p.json")["paths"]
+        self.expect(0, "plan", *self.files("p"), "--output", "p.txt", "--export", "mapf-visualizer")
+        with open(self.path("p.txt")) as file:
+            rows = file.read().splitlines()
+        self.assertEqual(len(rows), 5)
+        for step, row in enumerate(rows):
+            cells = [path[min(step, len(path) - 1)] for path in paths]
+            self.assertEqual(row, "%d:" % step + "".join("(%d,%d)," % tuple(c) for c in cells))
+        self.expect(0, "plan", *self.files("p"), "--output", "p.viz", "--export", "planviz")
+        result = self.read_json("p.viz")
+        self.assertEqual((result["actionModel"], result["teamSize"], result["makespan"],
+                          result["sumOfCost"]), ("MAPF", 2, 4, 6))
+        self.assertEqual(result["start"], [[0, 0, "E"], [0, 3, "E"]])
+        self.assertEqual(result["actualPaths"][0], "R,R,R,D")
+        self.assertEqual([row[-1] for row in result["events"]],
+                         [[0, 4, "finished"], [1, 2, "finished"]])
+
+    def test_refuses_exports_that_cannot_be(self):
+        self.write_problem("p", ["...."], [((0, 0), (3, 0))])
+        for parts, options in [(["planviz", "'x'"], ["--export", "x", "--output", "o"]),
+                               (["--output"], ["--export", "planviz"]),
+                               (["--write-better"], ["--export", "planviz", "--output", "o",
+                                                     "--write-better"]),
+                               (["size"], ["--export", "planviz", "--output", "o",
+                                           "--robot-radius", "0.1"])]:
+            self.expect_refusal(parts, "plan", *self.files("p"), *options)
+        self.assertFalse(os.path.exists(self.path("o")))
+
     def test_writes_each_better_plan_while_it_refines(self):
         self.generate("g", "--width", 16, "--height", 16, "--density", 0.1, "--agents", 60)
         process = self.start("plan", *self.files("g"), "--objective", "sum_of_costs", "--refine", 2,
