@@ -139,7 +139,7 @@ class Refinement {
     std::vector<Executor::Job> jobs(options_.threads);
     for (Executor::Job& job : jobs) {
       job.run = [&, seed = ++descents_ + options_.seed] {
-        Placement placement(instance_, plan, horizon, seed, 1, reserved_.paths());
+        Placement placement(instance_, plan, horizon, seed, {}, reserved_.paths());
         Placement::Effort effort;
         effort.patience = patience * instance_.robots();
         effort.delayed_one_in = Placement::kDelayedOneIn;

@@ -9,16 +9,9 @@
 #include <new>
 #include <utility>
 
-#include <boost/asio/post.hpp>
-#include <boost/asio/thread_pool.hpp>
+#include "parallel/thread_budget.h"
 
 namespace split_mapf {
-
-struct Executor::Pool {
-  explicit Pool(std::uint32_t threads) : workers(threads) {}
-  boost::asio::thread_pool workers;
-};
-
 namespace {
 
 // A stop flag cannot wake a sleeper, so that a waiting caller looks at its deadline this often.
@@ -74,12 +67,14 @@ class Batch {
 }  // namespace
 
 Executor::Executor(std::uint32_t threads)
-    : threads_(std::max(threads, 1U)), pool_(std::make_unique<Pool>(threads_)) {}
+    : threads_(std::max(threads, 1U)), budget_(std::make_unique<ThreadBudget>(threads_)) {}
 
 Executor::Executor(OnCallersThread /*tag*/) : threads_(1) {}
 
-Executor::~Executor() {
-  if (pool_) pool_->workers.join();
+Executor::~Executor() = default;
+
+LentThreads Executor::lend(std::uint32_t asked) const {
+  return budget_ ? LentThreads(threadsFor(asked), *budget_) : LentThreads();
 }
 
 void Executor::run(std::vector<Job> jobs, std::uint32_t threads, const Deadline& deadline) {
@@ -88,18 +83,18 @@ void Executor::run(std::vector<Job> jobs, std::uint32_t threads, const Deadline&
     return a.expected_effort > b.expected_effort;
   });
   const std::uint32_t allowed = threadsFor(threads);
-  const std::size_t drawers = pool_ ? std::min<std::size_t>(allowed, jobs.size()) : 0;
+  const std::size_t drawers = budget_ ? std::min<std::size_t>(allowed, jobs.size()) : 0;
   const auto batch = std::make_shared<Batch>(std::move(jobs));
   for (std::size_t posted = 0; posted < drawers; ++posted) {
     try {
-      boost::asio::post(pool_->workers, [batch] { batch->draw(); });
+      budget_->post([batch] { batch->draw(); });
     } catch (const std::bad_alloc&) {
       // Those that are posted can do all the work; without any the caller does it.
       if (posted == 0) batch->draw();
       break;
     }
   }
-  if (!pool_) batch->draw();
+  if (!budget_) batch->draw();
   batch->wait(deadline);
 }
 

@@ -4,24 +4,16 @@
 
 namespace split_mapf {
 
-ThreadTeam::ThreadTeam(std::uint32_t threads) {
-  others_.reserve(threads - 1);
-  for (std::uint32_t member = 1; member < threads; ++member) {
-    others_.emplace_back([this, member] { serve(member); });
-  }
+ThreadTeam::ThreadTeam(const LentThreads& lent) : lent_(lent) {
+  if (lent_.most() > 1) lent_.budget()->enrol(*this, lent_.most() - 1);
 }
 
 ThreadTeam::~ThreadTeam() {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    leaving_ = true;
-  }
-  begun_.notify_all();
-  for (std::thread& other : others_) other.join();
+  if (lent_.most() > 1) lent_.budget()->dismiss(*this);
 }
 
 void ThreadTeam::forEach(std::uint32_t count, const Body& body) {
-  if (others_.empty() || count < 2) {
+  if (lent_.most() == 1 || count < 2) {
     for (std::uint32_t i = 0; i < count; ++i) body(i, 0);
     return;
   }
@@ -39,16 +31,29 @@ void ThreadTeam::forEach(std::uint32_t count, const Body& body) {
 void ThreadTeam::serve(std::uint32_t member) {
   std::unique_lock<std::mutex> lock(mutex_);
   for (;;) {
-    begun_.wait(lock, [this] { return leaving_ || (body_ != nullptr && next_ < count_); });
-    if (leaving_) return;
+    begun_.wait(lock, [this] { return mayLeave() || (body_ != nullptr && next_ < count_); });
+    if (mayLeave()) break;
     work(member, lock);
     if (busy_ == 0) ended_.notify_one();
   }
+  if (recalled_ > 0) --recalled_;
+}
+
+void ThreadTeam::recall() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++recalled_;
+  begun_.notify_one();
+}
+
+void ThreadTeam::dismiss() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  leaving_ = true;
+  begun_.notify_all();
 }
 
 void ThreadTeam::work(std::uint32_t member, std::unique_lock<std::mutex>& lock) {
   ++busy_;
-  while (next_ < count_) {
+  while (next_ < count_ && (member == 0 || recalled_ == 0)) {
     const std::uint32_t item = next_++;
     const Body& body = *body_;
     lock.unlock();

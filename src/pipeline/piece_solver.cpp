@@ -86,7 +86,7 @@ SolveResult PieceSolver::solveOne(const PieceTask& task, std::uint32_t threads,
       if (task.piece->shares > 0) options.expansion_limit = task.piece->shares * usualBudget(task);
       SolveRequest question(piece, deadline);
       const auto solver = solvers_.create(row.solver, options);
-      if (solver->traits().uses_threads) question.threads = threads;
+      if (solver->traits().uses_threads) question.threads = executor_.lend(threads);
       result = solver->solve(question);
       row.horizon = makespanLowerBound(piece);
     } catch (const Interrupted&) {

@@ -113,7 +113,7 @@ void PlanRun::takeTurnsOut() {
   log_.enterStage("straighten");
   Plan plan = *report_.plan;
   trimToArrival(plan);
-  accept(straighten(instance_, std::move(plan), report_.threads, deadline_));
+  accept(straighten(instance_, std::move(plan), executor_.lend(report_.threads), deadline_));
 }
 
 void PlanRun::refineWithin(double seconds) {
@@ -414,7 +414,8 @@ Plan PlanRun::join(const Splitter& splitter, RepairLoop::Outcome& outcome) {
       request_.split.options.replan_passes.value_or(least ? 0 : kReplanPasses);
   if (passes == 0) return plan;
   log_.enterStage("replan");
-  return replanSingly(instance_, std::move(plan), {passes, report_.threads, nullptr}, deadline_);
+  return replanSingly(instance_, std::move(plan),
+                      {passes, executor_.lend(report_.threads), nullptr}, deadline_);
 }
 
 void PlanRun::takeVerdict(const SolveResult& result) {

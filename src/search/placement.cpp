@@ -13,12 +13,12 @@ constexpr std::uint32_t kLongestDelay = 20;
 }  // namespace
 
 Placement::Placement(const Instance& instance, const std::vector<std::uint32_t>& queue,
-                     std::uint64_t seed, std::uint32_t threads, const Reservations* reserved)
+                     std::uint64_t seed, const LentThreads& threads, const Reservations* reserved)
     : instance_(instance),
       is_reserved_(reserved != nullptr && !reserved->empty()),
       engine_(seed),
       team_(threads),
-      searches_(threads, {EvictionSearch(instance.graph())}),
+      searches_(threads.most(), {EvictionSearch(instance.graph())}),
       table_(instance.graph().size()),
       queued_(instance.robots(), 0),
       weights_(instance.robots(), 1),
@@ -34,7 +34,7 @@ Placement::Placement(const Instance& instance, const std::vector<std::uint32_t>&
 }
 
 Placement::Placement(const Instance& instance, const Plan& plan, std::uint32_t horizon,
-                     std::uint64_t seed, std::uint32_t threads, const Reservations* reserved)
+                     std::uint64_t seed, const LentThreads& threads, const Reservations* reserved)
     : Placement(instance, {}, seed, threads, reserved) {
   for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {
     const Path& path = plan.paths[robot];

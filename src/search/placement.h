@@ -13,6 +13,7 @@
 #include "split_mapf/core/plan.h"
 #include "split_mapf/core/random.h"
 #include "split_mapf/core/reservations.h"
+#include "split_mapf/parallel/lent_threads.h"
 
 namespace split_mapf {
 
@@ -33,12 +34,12 @@ class Placement {
   /// @param queue  everybody, in the order of the first placing. @param reserved  placed for good
   /// before all; null: nothing is. The instance outlives this object.
   Placement(const Instance& instance, const std::vector<std::uint32_t>& queue, std::uint64_t seed,
-            std::uint32_t threads, const Reservations* reserved = nullptr);
+            const LentThreads& threads, const Reservations* reserved = nullptr);
 
   /// Starts from a plan: everybody who arrives by `horizon` is placed, the others wait.
   /// @pre the plan is valid and its paths end at their arrivals.
   Placement(const Instance& instance, const Plan& plan, std::uint32_t horizon, std::uint64_t seed,
-            std::uint32_t threads = 1, const Reservations* reserved = nullptr);
+            const LentThreads& threads = {}, const Reservations* reserved = nullptr);
 
   struct Effort {
     /// Placements without fewer robots waiting than ever before in this run.

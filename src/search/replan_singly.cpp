@@ -40,8 +40,8 @@ class BatchReplanning {
         plan_(std::move(plan)),
         effort_(effort),
         deadline_(deadline),
-        tables_(std::min(kMostThreads, effort.threads), tableOf(instance, plan_, effort.reserved)),
-        team_(static_cast<std::uint32_t>(tables_.size())),
+        team_(effort.threads.atMost(kMostThreads)),
+        tables_(team_.threads(), tableOf(instance, plan_, effort.reserved)),
         searches_(tables_.size(), {GapSearch(instance.graph())}) {}
 
   Plan run() {
@@ -149,8 +149,8 @@ class BatchReplanning {
   Plan plan_;
   const ReplanEffort& effort_;
   const Deadline& deadline_;
-  std::vector<ReservationTable> tables_;  // of everybody, one a thread
   ThreadTeam team_;
+  std::vector<ReservationTable> tables_;    // of everybody, one a thread
   std::vector<Apart<GapSearch>> searches_;  // one a thread
   BatchSize batch_size_;
   std::deque<std::uint32_t> queue_;  // next first

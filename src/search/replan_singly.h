@@ -8,13 +8,14 @@
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"
 #include "split_mapf/core/reservations.h"
+#include "split_mapf/parallel/lent_threads.h"
 
 namespace split_mapf {
 
 /// What replanSingly() may use.
 struct ReplanEffort {
   std::uint64_t passes = 1;
-  std::uint32_t threads = 1;  ///< >= 1; the plan does not depend on it
+  LentThreads threads;  ///< the plan does not depend on them
   /// Asked after each batch of searches with the states that they expanded and the steps that they
   /// took off the sum of costs; no ends the passes. Null: it never does.
   std::function<bool(std::uint64_t expansions, std::uint64_t gained)> go_on;

@@ -24,13 +24,12 @@ constexpr std::uint32_t kMostThreads = 8;
 class Straightening {
  public:
   Straightening(const Instance& instance, const HeadingGraph& graph, Plan plan,
-                std::uint32_t threads, const Deadline& deadline)
+                const LentThreads& threads, const Deadline& deadline)
       : instance_(instance),
         deadline_(deadline),
         plan_(std::move(plan)),
-        tables_(std::min(kMostThreads, std::max(1U, threads)),
-                ReservationTable(instance.graph().size(), plan_)),
-        team_(static_cast<std::uint32_t>(tables_.size())),
+        team_(threads.atMost(kMostThreads)),
+        tables_(team_.threads(), ReservationTable(instance.graph().size(), plan_)),
         searches_(tables_.size(), {StraightSearch(graph, instance.graph().size())}) {}
 
   Plan run() {
@@ -96,8 +95,8 @@ class Straightening {
   const Instance& instance_;
   const Deadline& deadline_;
   Plan plan_;
-  std::vector<ReservationTable> tables_;  // of everybody, one a thread
   ThreadTeam team_;
+  std::vector<ReservationTable> tables_;         // of everybody, one a thread
   std::vector<Apart<StraightSearch>> searches_;  // one a thread
   std::vector<Path> found_;
   std::vector<Change> changes_;  // of the batch
@@ -121,7 +120,7 @@ std::uint32_t countTurns(const Grid& grid, const Path& path) {
   return turns;
 }
 
-Plan straighten(const Instance& instance, Plan plan, std::uint32_t threads,
+Plan straighten(const Instance& instance, Plan plan, const LentThreads& threads,
                 const Deadline& deadline) {
   const HeadingGraph graph(instance.grid());
   if (!graph.isValid()) return plan;

@@ -5,6 +5,7 @@
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"
+#include "split_mapf/parallel/lent_threads.h"
 
 namespace split_mapf {
 
@@ -22,9 +23,9 @@ std::uint32_t countTurns(const Grid& grid, const Path& path);
 /// searched for side by side, 32 at a time; a robot that meets another of its batch on that one's
 /// new path is searched for again. Ours. Deterministic but for the deadline.
 /// Cost: 0.1 to 1 ms a robot on large maps, and a table of the plan for each thread.
-/// @param threads  >= 1; the plan does not depend on it.
+/// The plan does not depend on the threads.
 /// @pre the plan is valid, its paths end at their arrivals.
-Plan straighten(const Instance& instance, Plan plan, std::uint32_t threads,
+Plan straighten(const Instance& instance, Plan plan, const LentThreads& threads,
                 const Deadline& deadline);
 
 }  // namespace split_mapf

@@ -42,13 +42,12 @@ std::vector<std::uint32_t> firstQueue(const Instance& instance, std::uint64_t se
 Placement beginPlacing(const SolveRequest& request, std::uint64_t seed, std::uint32_t horizon,
                        const Reservations* reserved) {
   const Instance& instance = request.instance;
-  const std::uint32_t threads = std::max(1U, request.threads);
   if (request.known == nullptr) {
-    return Placement(instance, firstQueue(instance, seed), seed, threads, reserved);
+    return Placement(instance, firstQueue(instance, seed), seed, request.threads, reserved);
   }
   Plan known = *request.known;
   trimToArrival(known);
-  return Placement(instance, known, horizon, seed, threads, reserved);
+  return Placement(instance, known, horizon, seed, request.threads, reserved);
 }
 
 /// Where the search has found nothing better the known plan is the answer.

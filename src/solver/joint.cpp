@@ -109,7 +109,7 @@ SolveResult JointSolver::run(const SolveRequest& request) const {
   if (sumOfCostsOf(*result.plan) > sumOfCostsLowerBound(instance) &&
       settings_->objective == Objective::kMakespan) {
     result.plan =
-        replanSingly(instance, *std::move(result.plan), {kPolishPasses, 1, nullptr}, deadline);
+        replanSingly(instance, *std::move(result.plan), {kPolishPasses, {}, nullptr}, deadline);
   }
   certifyByLowerBound(result, settings_->objective, kName);
   return result;

@@ -76,7 +76,7 @@ void polish(const SolveRequest& request, const LacamSettings& settings, SolveRes
   if (!go_on(0, 0)) return;
   ReplanEffort effort;
   effort.passes = settings.polish;
-  effort.threads = std::max(1U, request.threads);
+  effort.threads = request.threads;
   effort.go_on = go_on;
   result.plan = replanSingly(instance, *std::move(result.plan), effort, request.deadline);
   // Who waited for robots that have earlier paths now need not wait any longer.

@@ -47,7 +47,7 @@ class PrioritizedRun {
                  Effort& effort)
       : instance_(request.instance),
         reserved_(reserved),
-        threads_(std::max(1U, request.threads)),
+        threads_(request.threads),
         settings_(settings),
         options_(options),
         effort_(effort) {}
@@ -64,7 +64,7 @@ class PrioritizedRun {
 
   const Instance& instance_;
   const ReservedPaths& reserved_;
-  const std::uint32_t threads_;
+  const LentThreads threads_;
   const PrioritizedSolver::Settings& settings_;
   const SolverOptions& options_;
   Effort& effort_;

@@ -187,6 +187,7 @@ struct Crowd {
 
 TEST(Reservations, OfACrowdAreKeptAtAnyThreadCount) {
   const Crowd crowd;
+  Executor executor(3);
   for (const char* name : {"conflict_optimizer", "prioritized"}) {
     SolveRequest request(*crowd.rest);
     request.reserved = &crowd.reserved;
@@ -194,7 +195,7 @@ TEST(Reservations, OfACrowdAreKeptAtAnyThreadCount) {
     const SolveResult alone = solver->solve(request);
     ASSERT_TRUE(alone.plan) << name << alone.message;
     EXPECT_EQ(findViolation(*crowd.rest, *alone.plan, crowd.reserved), "");
-    request.threads = 3;
+    request.threads = executor.lend();
     EXPECT_EQ(solver->solve(request).plan->paths, alone.plan->paths) << name;
   }
 }

@@ -11,7 +11,7 @@
 namespace split_mapf {
 namespace {
 
-ReplanEffort threePasses(std::uint32_t threads = 1) {
+ReplanEffort threePasses(const LentThreads& threads = {}) {
   ReplanEffort effort;
   effort.passes = 3;
   effort.threads = threads;
@@ -28,7 +28,7 @@ TEST(ReplanSingly, TakesTheShorterWayThatTheOthersLeaveOpen) {
 }
 
 TEST(ReplanSingly, NobodyArrivesLaterOnRandomPlans) {
-  Executor executor(1);
+  Executor executor(4);
   int gained = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -42,7 +42,8 @@ TEST(ReplanSingly, NobodyArrivesLaterOnRandomPlans) {
     if (!report.plan) continue;
     const Plan better = replanSingly(instance, *report.plan, threePasses(), Deadline());
     EXPECT_TRUE(validate(instance, better).empty());
-    EXPECT_EQ(replanSingly(instance, *report.plan, threePasses(4), Deadline()).paths, better.paths);
+    EXPECT_EQ(replanSingly(instance, *report.plan, threePasses(executor.lend()), Deadline()).paths,
+              better.paths);
     for (std::uint32_t i = 0; i < instance.robots(); ++i) {
       EXPECT_LE(costOf(better.paths[i]), costOf(report.plan->paths[i]));
     }
@@ -57,10 +58,11 @@ TEST(ReplanSingly, SideBySideInACrowd) {
   options.values["polish"] = "0";
   const SolveResult loose = LacamSolver(options).solve(instance, Deadline());
   ASSERT_TRUE(loose.plan);
-  const Plan better = replanSingly(instance, *loose.plan, threePasses(3), Deadline());
+  Executor executor(3);
+  const Plan better = replanSingly(instance, *loose.plan, threePasses(executor.lend()), Deadline());
   EXPECT_TRUE(validate(instance, better).empty());
   EXPECT_LT(sumOfCostsOf(better), sumOfCostsOf(*loose.plan));
-  EXPECT_EQ(replanSingly(instance, *loose.plan, threePasses(1), Deadline()).paths, better.paths);
+  EXPECT_EQ(replanSingly(instance, *loose.plan, threePasses(), Deadline()).paths, better.paths);
 }
 
 TEST(ReplanSingly, ItStopsOnceItsEffortIsSpent) {

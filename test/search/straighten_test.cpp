@@ -9,6 +9,7 @@
 
 #include "search/straight_search.h"
 #include "split_mapf/core/validate.h"
+#include "split_mapf/parallel/executor.h"
 #include "support/ascii_grid.h"
 #include "support/random_plan.h"
 #include "support/small_instances.h"
@@ -34,7 +35,7 @@ TEST(Straighten, AStaircaseBecomesOneCorner) {
     if (i < 3) plan.paths[0].push_back(grid->vertexAt({i + 1, i}));
   }
   ASSERT_EQ(countTurns(*grid, plan.paths[0]), 5U);
-  const Plan straight = straighten(test::instanceOf(grid, plan), plan, 1, {});
+  const Plan straight = straighten(test::instanceOf(grid, plan), plan, {}, {});
   EXPECT_EQ(countTurns(*grid, straight.paths[0]), 1U);
   EXPECT_EQ(straight.paths[0].size(), plan.paths[0].size());
 }
@@ -111,6 +112,7 @@ TEST(StraightSearch, FindsTheFewestTurnsThatOthersLeave) {
 }
 
 TEST(Straighten, TakesTurnsOutAndKeepsEveryCost) {
+  Executor executor(2);
   std::uint64_t taken_out = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -119,9 +121,9 @@ TEST(Straighten, TakesTurnsOutAndKeepsEveryCost) {
     const auto robots = static_cast<std::uint32_t>(2 + drawBelow(engine, 8));
     const Plan plan = test::randomValidPlan(*grid, robots, 14, engine);
     const Instance instance = test::instanceOf(grid, plan);
-    const Plan straight = straighten(instance, plan, 1, {});
+    const Plan straight = straighten(instance, plan, {}, {});
     ASSERT_TRUE(validate(instance, straight).empty());
-    EXPECT_EQ(straighten(instance, plan, 2, {}).paths, straight.paths);
+    EXPECT_EQ(straighten(instance, plan, executor.lend(), {}).paths, straight.paths);
     for (std::uint32_t i = 0; i < robots; ++i) {
       EXPECT_LE(costOf(straight.paths[i]), costOf(plan.paths[i]));
       EXPECT_LE(countTurns(*grid, straight.paths[i]), countTurns(*grid, plan.paths[i]));
@@ -137,7 +139,7 @@ TEST(Straighten, KeepsCostsWhereRobotsMayLoseMoreStepsThanAWordHolds) {
   for (int i = 0; i < 40; ++i) {
     const Plan plan = test::randomValidPlan(*grid, 4, 200, engine);
     const Instance instance = test::instanceOf(grid, plan);
-    const Plan straight = straighten(instance, plan, 1, {});
+    const Plan straight = straighten(instance, plan, {}, {});
     ASSERT_TRUE(validate(instance, straight).empty());
     for (std::uint32_t robot = 0; robot < 4; ++robot) {
       EXPECT_LE(costOf(straight.paths[robot]), costOf(plan.paths[robot]));

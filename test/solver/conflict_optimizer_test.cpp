@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "split_mapf/core/validate.h"
+#include "split_mapf/parallel/executor.h"
 #include "support/ascii_grid.h"
 #include "support/small_instances.h"
 
@@ -37,8 +38,9 @@ TEST(ConflictOptimizer, ThreadsDoNotChangeThePlan) {
     const SolveResult alone = ConflictOptimizerSolver(options).solve(instance, Deadline(20));
     ASSERT_TRUE(alone.plan);
     for (const std::uint32_t threads : {2U, 8U}) {
+      Executor executor(threads);
       SolveRequest request(instance, Deadline(20));
-      request.threads = threads;
+      request.threads = executor.lend();
       const SolveResult shared = ConflictOptimizerSolver(options).solve(request);
       ASSERT_TRUE(shared.plan);
       EXPECT_EQ(shared.plan->paths, alone.plan->paths) << threads << " threads";

@@ -7,14 +7,17 @@
 #include <vector>
 
 #include "split_mapf/core/deadline.h"
+#include "split_mapf/parallel/lent_threads.h"
 
 namespace split_mapf {
 
 /// Worker threads shared by every caller. Batches are served in order of arrival, the jobs of a
-/// batch longest expected first.
+/// batch longest expected first. A worker without a job helps the searches that threads were lent
+/// to; no other threads are ever started. Thread-safe.
 class Executor {
  public:
   /// @param threads  number of worker threads, >= 1.
+  /// @throws std::system_error when so many cannot be started.
   explicit Executor(std::uint32_t threads);
   struct OnCallersThread {};
   /// No workers: whoever calls does all the jobs, one after another. Unlike the others it may be
@@ -30,6 +33,10 @@ class Executor {
   std::uint32_t threadsFor(std::uint32_t asked) const {
     return asked == 0 ? threads_ : std::min(asked, threads_);
   }
+
+  /// Threads for a search that works in short batches: threadsFor(asked), the caller's own among
+  /// them, whether or not that is a worker. The executor outlives what they are lent to.
+  LentThreads lend(std::uint32_t asked = 0) const;
 
   /// One piece of work and how much of it is expected, in any unit.
   struct Job {
@@ -48,9 +55,8 @@ class Executor {
                std::uint32_t threads = 0, const Deadline& deadline = {});
 
  private:
-  struct Pool;
   std::uint32_t threads_;
-  std::unique_ptr<Pool> pool_;
+  std::unique_ptr<ThreadBudget> budget_;  // null: the caller does all
 };
 
 }  // namespace split_mapf

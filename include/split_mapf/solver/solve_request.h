@@ -7,6 +7,7 @@
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"
 #include "split_mapf/core/reservations.h"
+#include "split_mapf/parallel/lent_threads.h"
 
 namespace split_mapf {
 
@@ -21,8 +22,9 @@ struct SolveRequest {
 
   const Instance& instance;
   Deadline deadline;  ///< polled by every loop that can run long
-  /// Threads lent to the call, the caller's own among them, >= 1. The plan does not depend on them.
-  std::uint32_t threads = 1;
+  /// Threads that the call may use beside the caller's own, see Executor::lend(). The plan does not
+  /// depend on them.
+  LentThreads threads;
   /// A valid plan to begin at, which keeps `reserved`; null: none is known. The answer costs no
   /// more.
   const Plan* known = nullptr;

@@ -15,7 +15,8 @@ Improver::Improver(const MoveGraph& graph, const std::vector<bool>& closed, std:
                    std::uint32_t threads, std::uint64_t seed)
     : graph_(graph),
       steps_(steps),
-      team_(std::min(threads, kBatch)),
+      budget_(std::min(threads, kBatch) - 1),
+      team_(LentThreads(kBatch, budget_)),
       who_(std::size_t{graph.size()} * (kMostSteps + 1), 0) {
   for (std::uint32_t i = 0; i < team_.threads(); ++i) {
     workers_.push_back({{WindowTable(graph, closed), WindowSearch(graph, steps), 0}});

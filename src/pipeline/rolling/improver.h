@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "parallel/thread_budget.h"
 #include "parallel/thread_team.h"
 #include "pipeline/rolling/fleet_window.h"
 #include "pipeline/rolling/window_search.h"
@@ -77,6 +78,7 @@ class Improver {
 
   const MoveGraph& graph_;
   std::uint32_t steps_;
+  ThreadBudget budget_;  // beside the caller
   ThreadTeam team_;
   std::vector<Apart<Worker>> workers_;
   std::vector<Apart<Proposal>> proposals_;
