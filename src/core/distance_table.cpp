@@ -171,13 +171,16 @@ DistanceTables::DistanceTables(const Graph& graph, const std::vector<Vertex>& go
     : graph_(&graph), goals_(goals), extent_(extent), slots_(goals.size()) {}
 
 DistanceTables::DistanceTables(const Grid& grid, const std::vector<Vertex>& goals,
-                               DistanceExtent extent)
-    : grid_(&grid), goals_(goals), extent_(extent), slots_(goals.size()) {}
+                               DistanceExtent extent, const Standing& standing)
+    : grid_(&grid), goals_(goals), extent_(extent), slots_(goals.size()) {
+  for (std::size_t i = 0; i < standing.size(); ++i) slots_[i].table = standing[i];
+}
 
 DistanceTables::DistanceTables(const Grid& grid, const std::vector<Vertex>& starts,
                                const std::vector<Vertex>& goals,
-                               std::shared_ptr<const DistanceTables> known)
-    : DistanceTables(grid, goals, DistanceExtent::kOnDemand) {
+                               std::shared_ptr<const DistanceTables> known,
+                               const Standing& standing)
+    : DistanceTables(grid, goals, DistanceExtent::kOnDemand, standing) {
   starts_ = starts;
   known_ = std::move(known);
 }
@@ -198,11 +201,6 @@ const DistanceTable& DistanceTables::find(std::uint32_t i, const Deadline& deadl
     if (!slot.table) slot.table = make(i, deadline);
   });
   return *slot.table;
-}
-
-void DistanceTables::adopt(std::uint32_t i, std::shared_ptr<const DistanceTable> table) {
-  Slot& slot = slots_[i];
-  std::call_once(slot.once, [&] { slot.table = std::move(table); });
 }
 
 std::shared_ptr<const DistanceTable> DistanceTables::share(std::uint32_t i) const {

@@ -30,6 +30,19 @@ std::vector<Vertex> locate(const Grid& grid, const std::vector<Cell>& cells, con
   return vertices;
 }
 
+/// Reports vertices that are none of the grid.
+void requireVertices(const Grid& grid, std::vector<Vertex>& vertices, const char* role,
+                     std::vector<InstanceFault>& faults) {
+  for (std::uint32_t robot = 0; robot < vertices.size(); ++robot) {
+    if (vertices[robot] < grid.size()) continue;
+    faults.push_back({robot, FaultKind::kOutsideMap,
+                      "robot " + std::to_string(robot) + ": its " + role + " is vertex " +
+                          std::to_string(vertices[robot]) + ", but the grid has " +
+                          counted(grid.size(), "vertex", "vertices")});
+    vertices[robot] = kNoVertex;
+  }
+}
+
 void reportDuplicates(const Grid& grid, const std::vector<Vertex>& vertices, const char* role,
                       FaultKind kind, std::vector<InstanceFault>& faults) {
   std::unordered_map<Vertex, std::uint32_t> owner;
@@ -45,50 +58,77 @@ void reportDuplicates(const Grid& grid, const std::vector<Vertex>& vertices, con
   }
 }
 
+void requireSizes(std::size_t starts, std::size_t goals) {
+  if (starts != goals) {
+    throw InputError(counted(starts, "start") + " but " + counted(goals, "goal") +
+                     ": one of each a robot is needed");
+  }
+  if (starts == 0) throw InputError("an instance needs at least one robot");
+}
+
+/// @throws InstanceError for these faults and for duplicates.
+void requireNoFaults(const Problem& problem, std::vector<InstanceFault> faults) {
+  reportDuplicates(*problem.grid, problem.starts, "start", FaultKind::kDuplicateStart, faults);
+  reportDuplicates(*problem.grid, problem.goals, "goal", FaultKind::kDuplicateGoal, faults);
+  if (faults.empty()) return;
+  std::stable_sort(
+      faults.begin(), faults.end(),
+      [](const InstanceFault& a, const InstanceFault& b) { return a.robot < b.robot; });
+  throw InstanceError(std::move(faults));
+}
+
+Problem wellPosed(Problem problem) {
+  requireSizes(problem.starts.size(), problem.goals.size());
+  std::vector<InstanceFault> faults;
+  requireVertices(*problem.grid, problem.starts, "start", faults);
+  requireVertices(*problem.grid, problem.goals, "goal", faults);
+  requireNoFaults(problem, std::move(faults));
+  return problem;
+}
+
+/// From cells to vertices.
+Problem located(std::shared_ptr<const Grid> grid, const std::vector<Cell>& starts,
+                const std::vector<Cell>& goals) {
+  requireSizes(starts.size(), goals.size());
+  std::vector<InstanceFault> faults;
+  Problem problem;
+  problem.starts = locate(*grid, starts, "start", faults);
+  problem.goals = locate(*grid, goals, "goal", faults);
+  problem.grid = std::move(grid);
+  requireNoFaults(problem, std::move(faults));
+  return problem;
+}
+
 }  // namespace
 
 Instance::Instance(std::shared_ptr<const Grid> grid, const std::vector<Cell>& starts,
                    const std::vector<Cell>& goals, DistanceExtent extent)
-    : grid_(std::move(grid)) {
-  if (starts.size() != goals.size()) {
-    throw InputError(counted(starts.size(), "start") + " but " + counted(goals.size(), "goal") +
-                     ": one of each a robot is needed");
-  }
-  if (starts.empty()) throw InputError("an instance needs at least one robot");
-  std::vector<InstanceFault> faults;
-  starts_ = locate(*grid_, starts, "start", faults);
-  goals_ = locate(*grid_, goals, "goal", faults);
-  reportDuplicates(*grid_, starts_, "start", FaultKind::kDuplicateStart, faults);
-  reportDuplicates(*grid_, goals_, "goal", FaultKind::kDuplicateGoal, faults);
-  if (!faults.empty()) {
-    std::stable_sort(
-        faults.begin(), faults.end(),
-        [](const InstanceFault& a, const InstanceFault& b) { return a.robot < b.robot; });
-    throw InstanceError(std::move(faults));
-  }
-  tables_ = std::make_shared<DistanceTables>(*grid_, goals_, extent);
-}
+    : problem_(located(std::move(grid), starts, goals)),
+      tables_(std::make_shared<const DistanceTables>(*problem_.grid, problem_.goals, extent)) {}
+
+Instance::Instance(Problem problem, DistanceExtent extent, const DistanceTables::Standing& standing)
+    : problem_(wellPosed(std::move(problem))),
+      tables_(std::make_shared<const DistanceTables>(*problem_.grid, problem_.goals, extent,
+                                                     standing)) {}
+
+Instance::Instance(Problem problem, std::shared_ptr<const DistanceTables> tables)
+    : problem_(wellPosed(std::move(problem))), tables_(std::move(tables)) {}
 
 Instance Instance::fromVertices(std::shared_ptr<const Grid> grid, const std::vector<Vertex>& starts,
                                 const std::vector<Vertex>& goals, DistanceExtent extent) {
-  std::vector<Cell> start_cells;
-  std::vector<Cell> goal_cells;
-  start_cells.reserve(starts.size());
-  goal_cells.reserve(goals.size());
-  for (const Vertex v : starts) start_cells.push_back(grid->cellOf(v));
-  for (const Vertex v : goals) goal_cells.push_back(grid->cellOf(v));
-  return Instance(std::move(grid), start_cells, goal_cells, extent);
+  return Instance(Problem{std::move(grid), starts, goals}, extent);
 }
 
 Instance Instance::stretchOf(const Instance& whole, const std::vector<Vertex>& starts,
                              const std::vector<Vertex>& goals) {
-  Instance stretch = fromVertices(whole.sharedGrid(), starts, goals, DistanceExtent::kOnDemand);
-  stretch.tables_ = std::make_shared<DistanceTables>(*stretch.grid_, starts, goals, whole.tables_);
+  DistanceTables::Standing standing(whole.robots());
   for (std::uint32_t i = 0; i < whole.robots(); ++i) {
     if (goals[i] != whole.goal(i) || !whole.distances(i).isShareable()) continue;
-    stretch.adoptDistances(i, whole.shareDistances(i));
+    standing[i] = whole.shareDistances(i);
   }
-  return stretch;
+  return Instance(
+      Problem{whole.sharedGrid(), starts, goals},
+      std::make_shared<const DistanceTables>(whole.grid(), starts, goals, whole.tables_, standing));
 }
 
 std::optional<std::uint32_t> findCutOffRobot(const Instance& instance) {

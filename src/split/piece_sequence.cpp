@@ -9,13 +9,15 @@ namespace {
 
 /// The piece from the start of `left` to the end of `right`.
 Piece join(const Piece& left, const Piece& right) {
-  Instance joined = Instance::fromVertices(left.instance->sharedGrid(), left.instance->starts(),
-                                           right.instance->goals(), DistanceExtent::kOnDemand);
+  Problem joined = left.instance->problem();
+  joined.goals = right.instance->goals();
+  DistanceTables::Standing tables;
   for (std::uint32_t i = 0; i < joined.robots(); ++i) {
-    joined.adoptDistances(i, right.instance->shareDistances(i));
+    tables.push_back(right.instance->shareDistances(i));
   }
   Piece piece = left;
-  piece.instance = std::make_shared<const Instance>(std::move(joined));
+  piece.instance =
+      std::make_shared<const Instance>(std::move(joined), DistanceExtent::kOnDemand, tables);
   piece.shares = 2 * std::max(left.shares, right.shares);
   piece.cut_anew = true;
   return piece;

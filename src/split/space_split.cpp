@@ -146,22 +146,18 @@ Piece SpaceSplit::pieceOf(std::uint32_t phase, std::uint32_t region) const {
   piece.phase = phase;
   piece.region = region;
   piece.map = grid.map;
-  std::vector<Vertex> starts;
-  std::vector<Vertex> goals;
+  Problem problem{grid.grid, {}, {}};
+  DistanceTables::Standing tables;
   for (std::uint32_t robot = 0; robot < from.size(); ++robot) {
     if (ownership[from[robot]] != region) continue;
     piece.robots.push_back(robot);
-    starts.push_back(grid.localOf(from[robot]));
-    goals.push_back(grid.localOf(to[robot]));
+    problem.starts.push_back(grid.localOf(from[robot]));
+    problem.goals.push_back(grid.localOf(to[robot]));
+    const bool is_same = !grid.map && to[robot] == instance_.goal(robot);
+    tables.push_back(is_same ? instance_.shareDistances(robot) : nullptr);
   }
-  Instance instance = Instance::fromVertices(grid.grid, starts, goals, DistanceExtent::kOnDemand);
-  for (std::uint32_t i = 0; !grid.map && i < piece.robots.size(); ++i) {
-    const std::uint32_t robot = piece.robots[i];
-    if (to[robot] == instance_.goal(robot)) {
-      instance.adoptDistances(i, instance_.shareDistances(robot));
-    }
-  }
-  piece.instance = std::make_shared<const Instance>(std::move(instance));
+  piece.instance =
+      std::make_shared<const Instance>(std::move(problem), DistanceExtent::kOnDemand, tables);
   return piece;
 }
 

@@ -221,8 +221,7 @@ TEST(DistanceTables, ManyThreadsShareOneTableAGoal) {
 TEST(DistanceTables, TakeOverATableThatStandsAlready) {
   const auto grid = gridFromAscii({"...."});
   const auto table = std::make_shared<const DistanceTable>(grid->graph(), 3);
-  DistanceTables tables(grid->graph(), {0, 3});
-  tables.adopt(1, table);
+  const DistanceTables tables(*grid, {0, 3}, DistanceExtent::kAll, {nullptr, table});
   EXPECT_EQ(&tables[1], table.get());
   EXPECT_EQ(tables.share(1), table);
   EXPECT_EQ(tables[0](3), 3U);

@@ -111,6 +111,29 @@ TEST(Instance, FromVerticesEqualsFromCells) {
   EXPECT_THROW(Instance::fromVertices(grid, {1, 1}, {0, 2}), InstanceError);
 }
 
+TEST(Instance, NamesVerticesThatTheGridDoesNotHave) {
+  const auto grid = test::gridFromAscii({"..."});
+  try {
+    Instance::fromVertices(grid, {0, 7}, {kNoVertex, 1});
+    FAIL();
+  } catch (const InstanceError& error) {
+    ASSERT_EQ(error.faults().size(), 2U);
+    EXPECT_EQ(error.faults()[0].message,
+              "robot 0: its goal is vertex 4294967295, but the grid has 3 vertices");
+    EXPECT_EQ(error.faults()[1].message,
+              "robot 1: its start is vertex 7, but the grid has 3 vertices");
+  }
+}
+
+TEST(Instance, TakesTablesThatStandAlready) {
+  const auto grid = test::gridFromAscii({"...."});
+  const auto table = std::make_shared<const DistanceTable>(grid->graph(), 3);
+  const Instance instance(Problem{grid, {0, 1}, {2, 3}}, DistanceExtent::kOnDemand,
+                          {nullptr, table});
+  EXPECT_EQ(&instance.distances(1), table.get());
+  EXPECT_EQ(instance.shortestLength(0), 2U);
+}
+
 TEST(Instance, AStretchKeepsTheTableOfWhoIsHomeAtItsEnd) {
   const auto grid = gridFromAscii({".....", ".###.", "....."});
   const Instance whole = Instance::fromVertices(grid, {0, 7}, {4, 11});

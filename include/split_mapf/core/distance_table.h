@@ -111,23 +111,26 @@ class DistanceTable {
 /// DistanceExtent says.
 class DistanceTables {
  public:
+  /// Tables that stand already, by number; null: it does not. So stages never search for the same
+  /// goal twice.
+  using Standing = std::vector<std::shared_ptr<const DistanceTable>>;
+
   /// @pre `graph` outlives this object.
   DistanceTables(const Graph& graph, const std::vector<Vertex>& goals,
                  DistanceExtent extent = DistanceExtent::kAll);
   /// The same on the graph of a grid, which is asked for with the first table.
-  /// @pre `grid` outlives this object.
-  DistanceTables(const Grid& grid, const std::vector<Vertex>& goals, DistanceExtent extent);
+  /// @param standing  empty, or one a goal, to this goal. @pre `grid` outlives this object.
+  DistanceTables(const Grid& grid, const std::vector<Vertex>& goals, DistanceExtent extent,
+                 const Standing& standing = {});
   /// Tables on demand for robots on the way from `starts` to `goals`. @param known  tables of the
   /// same robots to other goals. @pre `grid` outlives this object; every goal can be reached.
   DistanceTables(const Grid& grid, const std::vector<Vertex>& starts,
-                 const std::vector<Vertex>& goals, std::shared_ptr<const DistanceTables> known);
+                 const std::vector<Vertex>& goals, std::shared_ptr<const DistanceTables> known,
+                 const Standing& standing);
 
   const DistanceTable& operator[](std::uint32_t i) const { return find(i, {}); }
   /// The same until the deadline: who comes later tries again. @throws Interrupted.
   const DistanceTable& find(std::uint32_t i, const Deadline& deadline) const;
-  /// Shares a table that stands already, so that stages never search for the same goal twice.
-  /// @pre table->goal() is goal i, and nobody has asked for table i yet.
-  void adopt(std::uint32_t i, std::shared_ptr<const DistanceTable> table);
   std::shared_ptr<const DistanceTable> share(std::uint32_t i) const;
 
  private:

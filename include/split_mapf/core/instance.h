@@ -3,25 +3,31 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "split_mapf/core/distance_table.h"
 #include "split_mapf/core/grid.h"
+#include "split_mapf/core/problem.h"
 
 namespace split_mapf {
 
-/// A well-posed multi-robot path finding problem: every start and goal is a free cell, no two
-/// robots share a start, no two share a goal. A robot may be cut off from its goal: such an
-/// instance is well-posed and unsolvable. Immutable and cheap to copy (grid and distance tables
-/// are shared); safe to use from several threads, unless its distances are found on demand.
+/// A problem that was found well-posed, and the distance tables of whoever solves it. Well-posed:
+/// every start and goal is a free cell, no two robots share a start, no two share a goal. A robot
+/// may be cut off from its goal: such an instance is well-posed and unsolvable. Immutable and cheap
+/// to copy (grid and distance tables are shared); safe to use from several threads, unless its
+/// distances are found on demand. No answer depends on which tables it was given.
 class Instance {
  public:
   /// @throws InstanceError naming every robot and cell at fault; InputError when there is no robot
   /// or the two lists differ in length.
   Instance(std::shared_ptr<const Grid> grid, const std::vector<Cell>& starts,
            const std::vector<Cell>& goals, DistanceExtent extent = DistanceExtent::kAll);
-  /// The same from vertices of the grid. @pre every vertex < grid->size().
+  /// @param standing  distance tables that others have found already: empty, or one a robot, to
+  /// its goal; null where there is none.
+  /// @throws InstanceError as above, also where a vertex is none of the grid; InputError.
+  explicit Instance(Problem problem, DistanceExtent extent = DistanceExtent::kAll,
+                    const DistanceTables::Standing& standing = {});
+  /// The same from the parts of a problem.
   static Instance fromVertices(std::shared_ptr<const Grid> grid, const std::vector<Vertex>& starts,
                                const std::vector<Vertex>& goals,
                                DistanceExtent extent = DistanceExtent::kAll);
@@ -33,14 +39,15 @@ class Instance {
   static Instance stretchOf(const Instance& whole, const std::vector<Vertex>& starts,
                             const std::vector<Vertex>& goals);
 
-  const Grid& grid() const { return *grid_; }
-  const std::shared_ptr<const Grid>& sharedGrid() const { return grid_; }
-  const Graph& graph() const { return grid_->graph(); }
-  std::uint32_t robots() const { return static_cast<std::uint32_t>(starts_.size()); }
-  Vertex start(std::uint32_t robot) const { return starts_[robot]; }
-  Vertex goal(std::uint32_t robot) const { return goals_[robot]; }
-  const std::vector<Vertex>& starts() const { return starts_; }
-  const std::vector<Vertex>& goals() const { return goals_; }
+  const Problem& problem() const { return problem_; }
+  const Grid& grid() const { return *problem_.grid; }
+  const std::shared_ptr<const Grid>& sharedGrid() const { return problem_.grid; }
+  const Graph& graph() const { return problem_.grid->graph(); }
+  std::uint32_t robots() const { return problem_.robots(); }
+  Vertex start(std::uint32_t robot) const { return problem_.starts[robot]; }
+  Vertex goal(std::uint32_t robot) const { return problem_.goals[robot]; }
+  const std::vector<Vertex>& starts() const { return problem_.starts; }
+  const std::vector<Vertex>& goals() const { return problem_.goals; }
 
   /// Distances to the robot's goal; computed on first use, then shared by all copies.
   const DistanceTable& distances(std::uint32_t robot) const { return (*tables_)[robot]; }
@@ -52,21 +59,14 @@ class Instance {
   std::shared_ptr<const DistanceTable> shareDistances(std::uint32_t robot) const {
     return tables_->share(robot);
   }
-  /// Takes a table from an instance whose robot has the same goal. @pre see
-  /// DistanceTables::adopt.
-  void adoptDistances(std::uint32_t robot, std::shared_ptr<const DistanceTable> table) {
-    tables_->adopt(robot, std::move(table));
-  }
   /// The robot's shortest path length alone [steps]; DistanceTable::kUnreachable if cut off.
-  std::uint32_t shortestLength(std::uint32_t robot) const {
-    return distances(robot)(starts_[robot]);
-  }
+  std::uint32_t shortestLength(std::uint32_t robot) const { return distances(robot)(start(robot)); }
 
  private:
-  std::shared_ptr<const Grid> grid_;
-  std::vector<Vertex> starts_;
-  std::vector<Vertex> goals_;
-  std::shared_ptr<DistanceTables> tables_;
+  Instance(Problem problem, std::shared_ptr<const DistanceTables> tables);
+
+  Problem problem_;
+  std::shared_ptr<const DistanceTables> tables_;
 };
 
 /// The first robot that cannot reach its goal even alone, if any.
