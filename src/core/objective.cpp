@@ -5,14 +5,15 @@
 
 namespace split_mapf {
 
-std::string toString(Objective objective) {
-  return objective == Objective::kMakespan ? "makespan" : "sum_of_costs";
-}
+std::string toString(Objective objective) { return ruleOf(objective).name; }
 
 Objective parseObjective(const std::string& text) {
-  if (text == "makespan") return Objective::kMakespan;
-  if (text == "sum_of_costs") return Objective::kSumOfCosts;
-  throw OptionError("objective " + quote(text) + " is unknown; expected makespan or sum_of_costs");
+  std::string names;
+  for (const Objective objective : kObjectives) {
+    if (text == ruleOf(objective).name) return objective;
+    names += (names.empty() ? "" : " or ") + toString(objective);
+  }
+  throw OptionError("objective " + quote(text) + " is unknown; expected " + names);
 }
 
 }  // namespace split_mapf

@@ -23,7 +23,13 @@ std::uint64_t sumOfCostsOf(const Plan& plan) {
 }
 
 std::uint64_t costOf(const Plan& plan, Objective objective) {
-  return objective == Objective::kMakespan ? makespanOf(plan) : sumOfCostsOf(plan);
+  switch (objective) {
+    case Objective::kMakespan:
+      return makespanOf(plan);
+    case Objective::kSumOfCosts:
+      return sumOfCostsOf(plan);
+  }
+  return 0;  // there is no other
 }
 
 void trimToArrival(Plan& plan) {

@@ -80,7 +80,7 @@ class Refinement {
                                          cost_ <= reserved_.lowerBound(Objective::kSumOfCosts));
   }
   bool mayDescend() const {
-    return options_.objective == Objective::kMakespan && !settlement_.isOptimal(plan_) &&
+    return ruleOf(options_.objective).greatest_only && !settlement_.isOptimal(plan_) &&
            makespanOf(plan_) > reserved_.makespanBound();
   }
   bool maySettle() const {
@@ -177,7 +177,7 @@ class Refinement {
     const bool stuck = instance_.robots() < kSmallTeam && in_vain_ >= kRoundsInVain;
     const std::uint32_t turn = stuck ? ++turns_ % 3 : 0;
     if (turn == 1 && !reserved_.any()) return searchGroups();
-    if (turn == 2 && options_.objective == Objective::kSumOfCosts) return searchSooner();
+    if (turn == 2 && ruleOf(options_.objective).sums()) return searchSooner();
     if (turn == 2 && mayDescend()) return searchLater();
     searchNeighbourhoods();
   }
@@ -247,7 +247,7 @@ class Refinement {
   using Workers = std::vector<std::unique_ptr<RefineWorker>>;
 
   std::uint32_t latestArrival() const {
-    return options_.objective == Objective::kMakespan ? makespanOf(plan_) : kForever - 1;
+    return ruleOf(options_.objective).greatest_only ? makespanOf(plan_) : kForever - 1;
   }
 
   Workers employ(std::unique_ptr<Incumbent>& incumbent, const Plan& plan,
@@ -301,6 +301,15 @@ class Refinement {
 };
 
 }  // namespace
+
+bool canRefine(Objective objective) {
+  switch (objective) {
+    case Objective::kMakespan:
+    case Objective::kSumOfCosts:
+      return true;
+  }
+  return false;  // there is no other
+}
 
 Plan refine(const Instance& instance, Plan plan, const RefineOptions& options, Executor& executor,
             const Deadline& deadline, const std::function<void(const Plan&)>& improved) {

@@ -19,13 +19,13 @@ Settlement::Settlement(const Instance& instance, Objective objective, std::uint6
     : instance_(instance),
       objective_(objective),
       bound_(std::max(lower_bound, split_mapf::lowerBound(instance, objective))),
-      sum_bound_(objective == Objective::kSumOfCosts ? bound_ : sumOfCostsLowerBound(instance)),
+      sum_bound_(ruleOf(objective).sums() ? bound_ : sumOfCostsLowerBound(instance)),
       told_bound_(bound_),
       told_sum_(sum_bound_) {}
 
 void Settlement::tellNew(const Proved& proved) {
   if (proved && bound_ > told_bound_) proved(objective_, bound_);
-  if (proved && objective_ == Objective::kMakespan && sum_bound_ > told_sum_) {
+  if (proved && ruleOf(objective_).greatest_only && sum_bound_ > told_sum_) {
     proved(Objective::kSumOfCosts, sum_bound_);
   }
   told_bound_ = bound_;
@@ -42,7 +42,7 @@ std::optional<Plan> Settlement::takeTurn(const Plan& plan, const Deadline& deadl
 }
 
 std::optional<Plan> Settlement::search(const Plan& plan, const Deadline& deadline) {
-  const bool within_makespan = objective_ == Objective::kMakespan && isOptimal(plan);
+  const bool within_makespan = ruleOf(objective_).greatest_only && isOptimal(plan);
   JointSettings settings;
   settings.objective = within_makespan ? Objective::kSumOfCosts : objective_;
   if (within_makespan) settings.latest_arrival = makespanOf(plan);
@@ -53,7 +53,7 @@ std::optional<Plan> Settlement::search(const Plan& plan, const Deadline& deadlin
   const JointGroups::Outcome outcome = groups.run();
   std::uint64_t& bound = within_makespan ? sum_bound_ : bound_;
   bound = std::max(bound, groups.lowerBound());
-  if (objective_ == Objective::kSumOfCosts) sum_bound_ = bound_;
+  if (ruleOf(objective_).sums()) sum_bound_ = bound_;
   const bool settled =
       outcome == JointGroups::Outcome::kFound || outcome == JointGroups::Outcome::kNone;
   states_ = settled ? kFirstStates : kGrowth * states_;

@@ -24,10 +24,8 @@ Json valueIf(bool meaningful, T value) {
 }
 
 Json gapOf(const PlanReport& report) {
-  const double cost = report.objective == Objective::kMakespan
-                          ? static_cast<double>(report.makespan)
-                          : static_cast<double>(report.sum_of_costs);
   if (!report.plan) return nullptr;
+  const auto cost = static_cast<double>(costOf(*report.plan, report.objective));
   if (report.proved_lower_bound <= 0) return cost == 0 ? Json(0.0) : Json(nullptr);
   return finiteOrNull(cost / report.proved_lower_bound - 1);
 }

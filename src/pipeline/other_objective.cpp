@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "pipeline/plan_run.h"
+#include "split_mapf/improve/refine.h"
 
 namespace split_mapf {
 namespace {
@@ -12,7 +13,7 @@ constexpr std::uint32_t kMostRobots = 100;
 constexpr std::uint64_t kMostSteps = 20000;
 
 Objective otherThan(Objective objective) {
-  return objective == Objective::kMakespan ? Objective::kSumOfCosts : Objective::kMakespan;
+  return ruleOf(objective).greatest_only ? Objective::kSumOfCosts : Objective::kMakespan;
 }
 
 }  // namespace
@@ -21,7 +22,8 @@ bool isOtherWorthAsking(const CheckedRequest& request, std::uint32_t robots,
                         std::uint64_t sum_bound) {
   const bool is_open = request.asked.solver == "auto" &&
                        (request.asked.split == "auto" || request.asked.split == "none");
-  return is_open && !request.first_plan_only && robots <= kMostRobots && sum_bound <= kMostSteps;
+  return is_open && canRefine(request.asked.objective) && !request.first_plan_only &&
+         robots <= kMostRobots && sum_bound <= kMostSteps;
 }
 
 std::optional<Plan> planForOther(const Instance& instance, const CheckedRequest& request,

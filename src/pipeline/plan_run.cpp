@@ -121,6 +121,11 @@ void PlanRun::refineWithin(double seconds) {
     report_.message += "; not refined: " + step_table_.describe();
     return;
   }
+  if (!canRefine(report_.objective)) {
+    report_.message +=
+        "; not refined: there is no refinement for objective " + toString(report_.objective);
+    return;
+  }
   log_.enterStage("refine");
   if (!features_ && report_.robots <= kMostToMeasure) features_ = measureFeatures(instance_);
   RefineOptions options;
@@ -149,7 +154,7 @@ void PlanRun::refineWithin(double seconds) {
   } else {
     refine(instance_, *report_.plan, options, executor_, end, improved);
   }
-  if (report_.objective == Objective::kSumOfCosts || !report_.optimal) return;
+  if (ruleOf(report_.objective).sums() || !report_.optimal) return;
   refined_sum_ = "; its makespan is proved, refinement went on with the sum of costs: " +
                  std::to_string(sum_at_proof_.value_or(report_.sum_of_costs)) + " then, " +
                  std::to_string(report_.sum_of_costs) + " now";

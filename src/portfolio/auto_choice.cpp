@@ -93,7 +93,7 @@ std::vector<Candidate> candidates(const AutoQuestion& question, const CostModel&
 
 /// Whether the pieces of a split do better with loose plans was not measured.
 bool startsLoose(const AutoQuestion& question) {
-  return question.refines && !question.splits && question.objective == Objective::kSumOfCosts &&
+  return question.refines && !question.splits && ruleOf(question.objective).sums() &&
          question.features.head_on >= kHeadOn;
 }
 

@@ -110,12 +110,12 @@ SolveResult ConflictOptimizerSolver::placeAll(const SolveRequest& request,
   effort.patience =
       std::max<std::uint64_t>(1, settings_.patience * std::max(kFewRobots, instance.robots()));
   effort.expansion_limit = expansion_limit_;
-  effort.hasty = objective_ == Objective::kMakespan;
+  effort.hasty = ruleOf(objective_).greatest_only;
   // Longer than this no robot has to travel on any but pathological graphs.
   const std::uint64_t longest = std::uint64_t{4} * (bound + instance.graph().size());
   // On few cells the first horizon would be longer, and none would be tried.
   std::uint64_t slack =
-      objective_ == Objective::kMakespan ? 0 : std::min(settings_.slack, longest - bound);
+      ruleOf(objective_).greatest_only ? 0 : std::min(settings_.slack, longest - bound);
   for (std::uint64_t step = 1; bound + slack <= longest; slack += step, step += (step + 3) / 4) {
     ++result.high_level_nodes;
     const auto outcome = placement.run(static_cast<std::uint32_t>(bound + slack), effort, deadline);

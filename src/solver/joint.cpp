@@ -107,7 +107,7 @@ SolveResult JointSolver::run(const SolveRequest& request) const {
   result.plan = groups.plan();
   // Not for nothing: its table has a bit for each cell and step.
   if (sumOfCostsOf(*result.plan) > sumOfCostsLowerBound(instance) &&
-      settings_->objective == Objective::kMakespan) {
+      ruleOf(settings_->objective).greatest_only) {
     result.plan =
         replanSingly(instance, *std::move(result.plan), {kPolishPasses, {}, nullptr}, deadline);
   }

@@ -74,7 +74,7 @@ class PrioritizedRun {
 };
 
 bool PrioritizedRun::run() {
-  const std::uint32_t slack = options_.objective == Objective::kMakespan ? 0 : kSlack;
+  const std::uint32_t slack = ruleOf(options_.objective).greatest_only ? 0 : kSlack;
   const std::uint32_t horizon = reserved_.makespanBound() + slack;
   RandomEngine engine(options_.seed);
   Placement placement(instance_, makeOrder(instance_, settings_.order, engine), options_.seed,

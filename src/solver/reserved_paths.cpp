@@ -45,7 +45,7 @@ std::uint32_t ReservedPaths::makespanBound() const {
 
 std::uint64_t ReservedPaths::lowerBound(Objective objective) const {
   if (!any()) return split_mapf::lowerBound(instance_, objective);
-  if (objective == Objective::kMakespan) return makespanBound();
+  if (ruleOf(objective).greatest_only) return makespanBound();
   return std::accumulate(soonest_.begin(), soonest_.end(), std::uint64_t{0});
 }
 

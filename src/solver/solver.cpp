@@ -36,8 +36,8 @@ SolveResult Solver::solve(const SolveRequest& request) const {
 }
 
 std::uint64_t lowerBound(const Instance& instance, Objective objective) {
-  return objective == Objective::kMakespan ? makespanLowerBound(instance)
-                                           : sumOfCostsLowerBound(instance);
+  return ruleOf(objective).greatest_only ? makespanLowerBound(instance)
+                                         : sumOfCostsLowerBound(instance);
 }
 
 SolveResult cutOffResult(std::uint32_t robot) {

@@ -106,7 +106,7 @@ SplitOptions readSplitOptions(const std::map<std::string, std::string>& values,
   const OptionValues reader(values);
   SplitOptions options;
   const std::string variant =
-      reader.choice("variant", objective == Objective::kMakespan ? "ahead" : "sum_of_costs",
+      reader.choice("variant", ruleOf(objective).greatest_only ? "ahead" : "sum_of_costs",
                     {"ahead", "makespan", "sum_of_costs", "bisection"});
   if (variant == "ahead") options.variant = TimeSplitVariant::kAhead;
   if (variant == "sum_of_costs") options.variant = TimeSplitVariant::kSumOfCosts;

@@ -42,14 +42,26 @@ TEST(Plan, TrimmingCutsWaitsAtTheGoalAndNothingElse) {
 }
 
 TEST(Objective, IsReadAndWritten) {
-  for (const Objective objective : {Objective::kMakespan, Objective::kSumOfCosts}) {
+  for (const Objective objective : kObjectives) {
     EXPECT_EQ(parseObjective(toString(objective)), objective);
   }
   try {
     parseObjective("flowtime");
     FAIL() << "accepted";
   } catch (const OptionError& e) {
-    EXPECT_NE(std::string(e.what()).find("flowtime"), std::string::npos);
+    EXPECT_STREQ(e.what(), "objective 'flowtime' is unknown; expected makespan or sum_of_costs");
+  }
+}
+
+TEST(CostRule, JoinsCostsAsThePlanDoes) {
+  const Plan first = {{{0, 1, 2}, {5, 4}}};
+  const Plan second = {{{8}, {9, 8, 7, 6}}};
+  Plan both = first;
+  both.paths.insert(both.paths.end(), second.paths.begin(), second.paths.end());
+  for (const Objective objective : kObjectives) {
+    EXPECT_EQ(ruleOf(objective).joined(costOf(first, objective), costOf(second, objective)),
+              costOf(both, objective))
+        << toString(objective);
   }
 }
 

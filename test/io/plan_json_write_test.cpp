@@ -24,7 +24,7 @@ PlanReport solvedReport() {
   report.robots = 2;
   report.termination = Termination::kSolved;
   report.message = "a valid plan";
-  report.plan = Plan{{{0, 2, 3}, {1}}};
+  report.plan = Plan{{{0, 2, 3}, {1, 0}}};
   report.makespan = 2;
   report.sum_of_costs = 3;
   report.makespan_lower_bound = 2;
@@ -78,7 +78,7 @@ TEST(PlanJsonWriteTest, WritesEveryField) {
   "layout": null,
   "paths": [
     [[0,0],[0,1],[1,1]],
-    [[1,0]]
+    [[1,0],[0,0]]
   ]
 }
 )");
@@ -120,7 +120,7 @@ TEST(PlanJsonWriteTest, ComputesTheGapOfTheObjective) {
   EXPECT_EQ(Json::parse(written(report)).at("gap"), 0.0);
   report.proved_lower_bound = 0;
   EXPECT_TRUE(Json::parse(written(report)).at("gap").is_null());
-  report.makespan = 0;
+  report.plan = Plan{{{0}, {1}}};
   EXPECT_EQ(Json::parse(written(report)).at("gap"), 0.0);
 }
 

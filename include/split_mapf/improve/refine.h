@@ -32,6 +32,9 @@ struct RefineOptions {
   const SolverRegistry* solvers = nullptr;
 };
 
+/// Whether refine() knows how to lower this cost.
+bool canRefine(Objective objective);
+
 /// Improves a valid plan until the deadline, or until its cost is proved to be the least, for
 /// makespan the sum of costs within it as well: small knots by search over joint states (see
 /// Settlement), in turns with all else; for makespan by
@@ -41,8 +44,8 @@ struct RefineOptions {
 /// Annealing; what it shows and returns never gets worse. Calls `improved` from the calling thread
 /// with every better plan, a few times a second at most. Returns the best plan. The clock cuts it,
 /// so two runs may differ, unless the deadline counts work and there is one thread. @pre the plan
-/// is valid and keeps what is reserved. Source: Li et al., IJCAI 2021; chains after Glover 1996;
-/// optimistic commits after Chan et al. 2024 (arXiv 2402.01961).
+/// is valid and keeps what is reserved; canRefine(options.objective). Source: Li et al., IJCAI
+/// 2021; chains after Glover 1996; optimistic commits after Chan et al. 2024 (arXiv 2402.01961).
 Plan refine(const Instance& instance, Plan plan, const RefineOptions& options, Executor& executor,
             const Deadline& deadline, const std::function<void(const Plan&)>& improved);
 

@@ -36,8 +36,15 @@ struct SolverTraits {
   std::uint64_t small_knot_expansions = 0;
 };
 
+/// Whether the solver may be asked for the objective.
 inline bool plansFor(const SolverTraits& traits, Objective objective) {
-  return objective == Objective::kMakespan ? traits.makespan : traits.sum_of_costs;
+  switch (objective) {
+    case Objective::kMakespan:
+      return traits.makespan;
+    case Objective::kSumOfCosts:
+      return traits.sum_of_costs;
+  }
+  return false;  // there is no other
 }
 
 }  // namespace split_mapf

@@ -73,7 +73,7 @@ void EcbsSearch::plantRoot(std::vector<Conflict> conflicts) {
   root.conflicts = std::move(conflicts);
   for (const std::uint32_t robot : robots_) {
     const std::uint32_t cost = lengthOf(run_.paths[robot]);
-    const bool makespan = settings_.objective == Objective::kMakespan;
+    const bool makespan = ruleOf(settings_.objective).greatest_only;
     root.cost = makespan ? std::max<std::uint64_t>(root.cost, cost) : root.cost + cost;
     root.bound_sum += run_.reserved.soonestArrival(robot);
     path_of_[robot] = tree_.addPath(run_.paths[robot]);
@@ -95,7 +95,7 @@ bool EcbsSearch::searchJointStates(SolveResult& result) {
   JointTask task;
   task.robots = robots_;
   task.others = &table_;
-  if (settings_.objective == Objective::kMakespan) task.floor = first_bound_;
+  if (ruleOf(settings_.objective).greatest_only) task.floor = first_bound_;
   JointSettings settings;
   settings.objective = settings_.objective;
   settings.states = kJointStates;
@@ -202,14 +202,14 @@ bool EcbsSearch::adoptInstead(std::uint32_t number, Child& child) {
   TreeNode& node = tree_.node(number);
   if (child.node.conflicts.size() >= node.conflicts.size()) return false;
   const std::uint32_t robot = child.node.constraint.robot;
-  const std::uint64_t robot_limit = settings_.objective == Objective::kMakespan
+  const std::uint64_t robot_limit = ruleOf(settings_.objective).greatest_only
                                         ? settings_.limit(node.lower_bound)
                                         : settings_.limit(bound_of_[robot]);
   if (lengthOf(child.path) > robot_limit) return false;
   if (child.node.cost > tree_.limit(tree_.lowerBound())) return false;
   // A longer makespan is for a child to try, not for its parent to be stuck with.
   const bool longer = child.node.cost > std::max(node.cost, node.lower_bound);
-  if (settings_.objective == Objective::kMakespan && longer) return false;
+  if (ruleOf(settings_.objective).greatest_only && longer) return false;
   node.cost = child.node.cost;
   node.conflicts = std::move(child.node.conflicts);
   node.paths.emplace_back(robot, tree_.addPath(std::move(child.path)));
@@ -232,8 +232,8 @@ std::optional<EcbsSearch::Child> EcbsSearch::makeChild(std::uint32_t parent,
 }
 
 bool EcbsSearch::planChild(std::uint32_t parent, Child& child) {
-  return settings_.objective == Objective::kMakespan ? planForMakespan(tree_.node(parent), child)
-                                                     : planForSumOfCosts(tree_.node(parent), child);
+  return ruleOf(settings_.objective).greatest_only ? planForMakespan(tree_.node(parent), child)
+                                                   : planForSumOfCosts(tree_.node(parent), child);
 }
 
 bool EcbsSearch::planForMakespan(const TreeNode& parent, Child& child) {
@@ -287,7 +287,7 @@ void EcbsSearch::completeChild(std::uint32_t parent, Child& child) {
     }
   }
   finder_.find(robot, child.path, table_, child.node.conflicts);
-  if (settings_.objective == Objective::kSumOfCosts) {
+  if (ruleOf(settings_.objective).sums()) {
     child.node.cost = node.cost + lengthOf(child.path) - lengthOf(tree_.path(path_of_[robot]));
     return;
   }
@@ -301,7 +301,7 @@ void EcbsSearch::completeChild(std::uint32_t parent, Child& child) {
 
 std::optional<Conflict> EcbsSearch::choose(std::uint32_t number) {
   TreeNode& node = tree_.node(number);
-  if (!settings_.cardinal || settings_.objective == Objective::kMakespan) {
+  if (!settings_.cardinal || ruleOf(settings_.objective).greatest_only) {
     return *std::min_element(node.conflicts.begin(), node.conflicts.end(),
                              [](const Conflict& a, const Conflict& b) { return a.step < b.step; });
   }

@@ -40,7 +40,7 @@ SearchQuery LowLevel::fewestCollisions(std::uint32_t robot, std::uint32_t bound,
   query.mode = OthersAre::kCounted;
   query.latest_arrival = static_cast<std::uint32_t>(settings_.limit(bound));
   query.cheap_arrival = own_bound + static_cast<std::uint32_t>(settings_.detour);
-  if (settings_.objective == Objective::kMakespan) {
+  if (ruleOf(settings_.objective).greatest_only) {
     query.firm_arrival = bound;
     query.steps_a_collision = kMakespanSteps;
   }

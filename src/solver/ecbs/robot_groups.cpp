@@ -78,8 +78,7 @@ std::uint32_t RobotGroups::nextOpen() const {
 std::uint64_t RobotGroups::lowerBound() const {
   std::uint64_t bound = 0;
   for (const Group& group : groups_) {
-    bound = run_.settings.objective == Objective::kMakespan ? std::max(bound, group.lower_bound)
-                                                            : bound + group.lower_bound;
+    bound = ruleOf(run_.settings.objective).joined(bound, group.lower_bound);
   }
   return bound;
 }
@@ -99,9 +98,7 @@ void RobotGroups::merge(std::uint32_t into, std::uint32_t other) {
              std::back_inserter(robots));
   for (const std::uint32_t robot : gone.robots) group_of_[robot] = into;
   kept.robots = std::move(robots);
-  kept.lower_bound = run_.settings.objective == Objective::kMakespan
-                         ? std::max(kept.lower_bound, gone.lower_bound)
-                         : kept.lower_bound + gone.lower_bound;
+  kept.lower_bound = ruleOf(run_.settings.objective).joined(kept.lower_bound, gone.lower_bound);
   kept.open = kept.open || gone.open;
   kept.merged = true;
   gone = Group();
@@ -109,7 +106,7 @@ void RobotGroups::merge(std::uint32_t into, std::uint32_t other) {
 
 // Without the slack that these have taken, the group might be left with less than it needs.
 void RobotGroups::mergeWithBorrowers(std::uint32_t number) {
-  if (run_.settings.objective == Objective::kMakespan) return;
+  if (ruleOf(run_.settings.objective).greatest_only) return;
   std::uint64_t others_bound = 0;
   std::uint64_t others_cost = 0;
   for (const Group& group : groups_) {
@@ -129,7 +126,7 @@ void RobotGroups::mergeWithBorrowers(std::uint32_t number) {
 GroupTask RobotGroups::taskOf(std::uint32_t number) const {
   GroupTask task;
   task.robots = groups_[number].robots;
-  if (run_.settings.objective == Objective::kMakespan) {
+  if (ruleOf(run_.settings.objective).greatest_only) {
     task.lower_bound = lowerBound();
     return task;
   }

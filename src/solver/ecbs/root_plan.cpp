@@ -18,7 +18,7 @@ std::optional<std::vector<Conflict>> makeRootPlan(EcbsRun& run,
   for (const std::uint32_t robot : makeOrder(run.instance, run.settings.order, engine)) {
     if (!std::binary_search(robots.begin(), robots.end(), robot)) continue;
     const std::uint32_t own = run.reserved.soonestArrival(robot);
-    const bool makespan = run.settings.objective == Objective::kMakespan;
+    const bool makespan = ruleOf(run.settings.objective).greatest_only;
     const auto most = makespan ? static_cast<std::uint32_t>(bound) : own;
     Path path = run.low_level.run(run.low_level.fewestCollisions(robot, most, own));
     if (run.low_level.stopped()) return std::nullopt;

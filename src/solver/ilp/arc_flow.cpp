@@ -81,8 +81,8 @@ EngineResult solveByArcFlow(const Instance& instance, Objective objective,
                             const std::optional<Plan>& known, const Effort& effort) {
   const std::uint64_t known_cost =
       known ? costOf(*known, objective) : std::numeric_limits<std::uint64_t>::max();
-  return objective == Objective::kMakespan ? solveForMakespan(instance, known_cost, effort)
-                                           : solveForSumOfCosts(instance, known_cost, effort);
+  return ruleOf(objective).greatest_only ? solveForMakespan(instance, known_cost, effort)
+                                         : solveForSumOfCosts(instance, known_cost, effort);
 }
 
 }  // namespace split_mapf::ilp

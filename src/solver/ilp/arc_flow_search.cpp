@@ -70,7 +70,7 @@ SearchEnd ArcFlowSearch::run() {
       continue;
     }
     accept();
-    if (objective_ == Objective::kMakespan) break;
+    if (ruleOf(objective_).greatest_only) break;
   }
   return end_;
 }
@@ -120,7 +120,7 @@ void ArcFlowSearch::buildRobot(std::uint32_t robot) {
     for (std::uint32_t s = t; s < space_.horizon(); ++s) {
       waits.push_back(space_.into(s, window.vertex(goal)));
     }
-    const double cost = objective_ == Objective::kMakespan ? 0.0 : t;
+    const double cost = ruleOf(objective_).greatest_only ? 0.0 : t;
     addVariable(robot, true, std::move(waits), cost, {{row_of(goal, t)}, {-1}});
   }
 }
@@ -157,7 +157,7 @@ ArcFlowSearch::Verdict ArcFlowSearch::solveRelaxation() {
     }
     if (status == LpStatus::kInfeasible) return Verdict::kPruned;
     const bool dear = roundUp(model_.objective()) >= static_cast<double>(cost_limit_);
-    if (objective_ == Objective::kSumOfCosts && dear) return Verdict::kPruned;
+    if (ruleOf(objective_).sums() && dear) return Verdict::kPruned;
     if (!separate()) return Verdict::kOpen;
   }
   return Verdict::kStopped;

@@ -25,7 +25,7 @@ constexpr std::size_t kMostCuts = 40;
 /// Steps that a robot may take at the most in a plan that costs less than the limit.
 std::uint32_t latestArrival(const Instance& instance, Objective objective, std::uint64_t cost_limit,
                             std::uint32_t robot) {
-  if (objective == Objective::kMakespan) return static_cast<std::uint32_t>(cost_limit - 1);
+  if (ruleOf(objective).greatest_only) return static_cast<std::uint32_t>(cost_limit - 1);
   const std::uint64_t slack = cost_limit - 1 - sumOfCostsLowerBound(instance);
   return instance.shortestLength(robot) + static_cast<std::uint32_t>(slack);
 }
@@ -41,7 +41,7 @@ std::uint32_t horizonOf(const Instance& instance, Objective objective, std::uint
 std::vector<double> artificialCosts(const Instance& instance, Objective objective,
                                     std::uint64_t cost_limit) {
   std::vector<double> costs(instance.robots(), 1);
-  if (objective == Objective::kMakespan) return costs;
+  if (ruleOf(objective).greatest_only) return costs;
   for (std::uint32_t i = 0; i < instance.robots(); ++i) {
     costs[i] = latestArrival(instance, objective, cost_limit, i) + 1.0;
   }

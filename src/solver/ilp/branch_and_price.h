@@ -52,7 +52,7 @@ class BranchAndPrice {
  private:
   enum class Verdict { kPruned, kOpen, kStopped };
 
-  bool makespan() const { return objective_ == Objective::kMakespan; }
+  bool makespan() const { return ruleOf(objective_).greatest_only; }
   /// Bounds above this belong to plans of no interest.
   double ceiling() const { return makespan() ? 0.0 : static_cast<double>(cost_limit_) - 1; }
   bool hopeless(double bound) const { return roundUp(bound) > ceiling(); }

@@ -34,11 +34,11 @@ EngineResult solveByColumnGeneration(const Instance& instance, Objective objecti
   result.lower_bound = lowerBound(instance, objective);
   const std::uint64_t known_cost =
       known ? costOf(*known, objective) : std::numeric_limits<std::uint64_t>::max();
-  std::uint64_t slack = objective == Objective::kMakespan ? 1 : kFirstSlack;
+  std::uint64_t slack = ruleOf(objective).greatest_only ? 1 : kFirstSlack;
   while (result.lower_bound < known_cost) {
     const std::uint64_t limit = std::min(known_cost, result.lower_bound + slack);
     if (!searchBelow(instance, objective, limit, known, effort, rounding, result)) return result;
-    if (objective == Objective::kSumOfCosts) slack *= 2;
+    if (ruleOf(objective).sums()) slack *= 2;
   }
   return result;
 }

@@ -22,7 +22,7 @@ double Pricing::run(const Window& window, const double* penalties, const RobotRu
   cost_of_arrival_.assign(last + 1, kInfinity);
   priceStay(penalties, rules);
   now_[0] = 0;
-  const bool makespan = objective_ == Objective::kMakespan;
+  const bool makespan = ruleOf(objective_).greatest_only;
   if (window.goalPlace() == 0 && (!makespan || last == 0)) cost_of_arrival_[0] = stay_[0];
   for (std::uint32_t t = 0; t < last; ++t) {
     advance(t, penalties, rules);

@@ -28,13 +28,13 @@ std::optional<Plan> UpperBound::find(std::uint64_t expansion_limit) {
   options.seed = seed_;
   options.expansion_limit = expansion_limit;
   SolveResult found = ConflictOptimizerSolver(options).solve(instance_, deadline_);
-  if (!found.plan || objective_ == Objective::kMakespan) return std::move(found.plan);
+  if (!found.plan || ruleOf(objective_).greatest_only) return std::move(found.plan);
   return improver_.improve(std::move(*found.plan), lowerBound(instance_, objective_), kPatience,
                            deadline_);
 }
 
 std::optional<Plan> UpperBound::round(const std::vector<UsedPath>& used, std::uint64_t cost_limit) {
-  const bool makespan = objective_ == Objective::kMakespan;
+  const bool makespan = ruleOf(objective_).greatest_only;
   const std::uint32_t latest = makespan ? static_cast<std::uint32_t>(cost_limit - 1) : kForever - 1;
   std::optional<Plan> plan = improver_.complete(used, latest, deadline_);
   if (plan && !makespan) {

@@ -43,7 +43,7 @@ class JointGroups {
     std::vector<std::uint32_t> met;  // groups, by number, that it has tried to pass
   };
 
-  bool makespan() const { return settings_.objective == Objective::kMakespan; }
+  bool makespan() const { return ruleOf(settings_.objective).greatest_only; }
   /// Plans the group anew. @param around  a group that gives no way; none: others may collide.
   Outcome plan(std::uint32_t number, const Group* around);
   JointTask taskOf(const Group& group, const Group* around) const;

@@ -17,7 +17,7 @@ std::uint32_t portion(std::uint32_t least) { return least < 2 ? least : 2 * leas
 std::uint64_t costLimit(const JointTask& task, const JointSettings& settings) {
   // Costs are counted in 32 bits.
   std::uint64_t limit = std::min<std::uint64_t>(task.cost_limit, 0xfffffff0U);
-  if (settings.objective == Objective::kMakespan) {
+  if (ruleOf(settings.objective).greatest_only) {
     limit = std::min<std::uint64_t>(limit, std::uint64_t{settings.latest_arrival} + 1);
   }
   return limit;
@@ -25,8 +25,7 @@ std::uint64_t costLimit(const JointTask& task, const JointSettings& settings) {
 
 /// Whether the step at which robots are somewhere matters for what they can do.
 bool isTimed(const JointTask& task, const JointSettings& settings) {
-  const bool late =
-      settings.objective == Objective::kSumOfCosts && settings.latest_arrival != kForever;
+  const bool late = ruleOf(settings.objective).sums() && settings.latest_arrival != kForever;
   return late || task.firm_until > 0;
 }
 

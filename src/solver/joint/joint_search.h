@@ -87,7 +87,7 @@ class JointSearch {
     }
   };
 
-  bool sums() const { return settings_.objective == Objective::kSumOfCosts; }
+  bool sums() const { return ruleOf(settings_.objective).sums(); }
   std::uint32_t robots() const { return static_cast<std::uint32_t>(task_.robots.size()); }
   Vertex vertexOf(std::uint32_t i, std::uint32_t part) const {
     return part == ended_ ? goals_[i] : part;

@@ -64,11 +64,11 @@ std::vector<std::uint32_t> shortestSequence(const Instance& instance, const Expl
     const auto [cost, node] = open.top();
     open.pop();
     if (cost > costs[node]) continue;
-    if (objective == Objective::kSumOfCosts) moves.explored.read(node, from);
+    if (ruleOf(objective).sums()) moves.explored.read(node, from);
     for (std::uint32_t k = successors.first[node]; k < successors.first[node + 1]; ++k) {
       const std::uint32_t next = successors.to[k];
       std::uint64_t step = 1;
-      if (objective == Objective::kSumOfCosts) {
+      if (ruleOf(objective).sums()) {
         moves.explored.read(next, to);
         step = costOfMove(instance, from, to);
       }
