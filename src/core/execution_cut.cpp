@@ -27,8 +27,10 @@ bool isDownwardClosed(const ExecutionGraph& graph, const Cut& cut) {
   for (std::uint32_t robot = 0; robot < order.robots(); ++robot) {
     if (cut[robot] < graph.at(robot) + (isUnderWay(graph, robot) ? 1 : 0)) return false;
     for (VisitId event = graph.at(robot) + 1; event <= cut[robot]; ++event) {
-      const VisitId awaited = order.awaits(event);
-      if (awaited != kNoVisit && !contains(awaited)) return false;
+      bool has_all = true;
+      graph.forEachAwaited(
+          event, [&](VisitId awaited, double) { has_all = has_all && contains(awaited); });
+      if (!has_all) return false;
       const Ring* const ring = graph.ringOf(event);
       if (ring != nullptr && !std::all_of(ring->begin(), ring->end(), contains)) return false;
     }
@@ -64,8 +66,11 @@ Cut withoutRings(const ExecutionGraph& graph, Cut cut) {
     changed = false;
     for (std::uint32_t robot = 0; robot < order.robots(); ++robot) {
       for (VisitId event = graph.at(robot) + 1; event <= cut[robot]; ++event) {
-        const VisitId awaited = order.awaits(event);
-        if (awaited == kNoVisit || awaited <= cut[order[awaited].robot]) continue;
+        bool has_all = true;
+        graph.forEachAwaited(event, [&](VisitId awaited, double) {
+          has_all = has_all && awaited <= cut[order[awaited].robot];
+        });
+        if (has_all) continue;
         cut[robot] = event - 1;
         changed = true;
       }
@@ -103,7 +108,7 @@ ExecutionGraph concatenate(const ExecutionGraph& graph, const Cut& cut, const Pl
     appendMoves(plan.paths[robot], robot, most - least, visits);
   }
   Precedence joined = Precedence::fromVisits(std::move(visits), order.vertices());
-  ExecutionGraph result(std::move(joined), graph.release());
+  ExecutionGraph result(std::move(joined), graph.release(), graph.closeMoves());
   for (std::uint32_t robot = 0; robot < order.robots(); ++robot) {
     if (!isUnderWay(graph, robot)) continue;
     result.resume(robot, graph.progress(robot));

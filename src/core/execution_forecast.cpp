@@ -5,12 +5,25 @@
 #include <utility>
 
 namespace split_mapf {
+namespace {
+
+// Ways that bend by less than 3 degrees go straight on: vertices lie in the middle of cells.
+constexpr double kStraight = 0.05;
+
+}  // namespace
+
 std::uint8_t quarterTurns(const Grid& grid, Vertex from, Vertex at, Vertex to) {
   const Cell a = grid.cellOf(from);
   const Cell b = grid.cellOf(at);
   const Cell c = grid.cellOf(to);
-  const std::int32_t ahead = (b.x - a.x) * (c.x - b.x) + (b.y - a.y) * (c.y - b.y);
-  return static_cast<std::uint8_t>(ahead > 0 ? 0 : (ahead < 0 ? 2 : 1));
+  const double come_x = b.x - a.x;
+  const double come_y = b.y - a.y;
+  const double go_x = c.x - b.x;
+  const double go_y = c.y - b.y;
+  const double ahead = come_x * go_x + come_y * go_y;
+  const double across = std::abs(come_x * go_y - come_y * go_x);
+  if (ahead > 0 && across < kStraight * ahead) return 0;
+  return ahead >= 0 ? 1 : 2;
 }
 
 std::vector<std::uint8_t> quarterTurns(const Grid& grid, const Precedence& precedence,
@@ -39,7 +52,6 @@ class ForecastRun {
         times_(times),
         turns_(turns),
         stands_(stands),
-        release_ticks_(static_cast<std::uint32_t>(std::ceil(graph.release() * times.move - 1e-6))),
         settled_(order_.size(), false) {
     result_.begins.assign(order_.size(), 0);
     result_.ends.assign(order_.size(), 0);
@@ -76,14 +88,18 @@ class ForecastRun {
 
   /// The soonest begin that the robot before it allows. @pre that one's event is settled.
   std::uint32_t releaseOf(VisitId event) const {
-    const VisitId awaited = order_.awaits(event);
-    if (awaited == kNoVisit) return 0;
-    // In a convoy the follower keeps behind even one that has begun to leave.
-    const bool convoy = graph_.release() <= 0 && isUnderWay(awaited);
-    if (graph_.hasLeft(awaited) && !convoy) return 0;
-    // Counted from the end of its move: before, it may start slowly, or stand.
-    const std::uint32_t after = times_.move - release_ticks_;
-    return result_.ends[awaited] > after ? result_.ends[awaited] - after : 0;
+    std::uint32_t release = 0;
+    graph_.forEachAwaited(event, [&](VisitId awaited, double fraction) {
+      // In a convoy the follower keeps behind even one that has begun to leave.
+      const bool convoy = graph_.release() <= 0 && isUnderWay(awaited);
+      if (graph_.hasDone(awaited, fraction) && !convoy) return;
+      // Counted from the end of its move: before, it may start slowly, or stand.
+      const auto ticks = static_cast<std::uint32_t>(std::ceil(fraction * times_.move - kRounding));
+      const std::uint32_t after = times_.move - ticks;
+      const std::uint32_t ends = result_.ends[awaited];
+      release = std::max(release, ends > after ? ends - after : 0);
+    });
+    return release;
   }
 
   bool isUnderWay(VisitId event) const {
@@ -112,7 +128,10 @@ class ForecastRun {
 
   void settleRing() {
     std::uint32_t begin = 0;
-    for (const VisitId event : chain_) begin = std::max(begin, soonestOf(event));
+    for (const VisitId event : chain_) {
+      begin = std::max(begin, soonestOf(event));
+      if (graph_.closeMoves()) begin = std::max(begin, releaseOf(event));
+    }
     for (const VisitId event : chain_) settle(event, begin);
   }
 
@@ -130,7 +149,6 @@ class ForecastRun {
   const MotionTimes& times_;
   const std::vector<std::uint8_t>& turns_;
   const std::vector<std::uint32_t>& stands_;
-  std::uint32_t release_ticks_;
   std::vector<bool> settled_;
   std::vector<VisitId> chain_;
   Forecast result_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/close_waits.h"
+
 namespace split_mapf {
 namespace {
 
@@ -12,8 +14,13 @@ constexpr double kRounding = 1e-6;
 }  // namespace
 
 ExecutionGraph::ExecutionGraph(Precedence precedence, double release)
-    : precedence_(std::move(precedence)),
-      release_(release),
+    : ExecutionGraph(std::move(precedence), release, nullptr) {}
+
+ExecutionGraph::ExecutionGraph(Precedence precedence, double release,
+                               std::shared_ptr<const CloseMoves> moves)
+    : precedence_(moves ? inOneOrder(precedence) : std::move(precedence)),
+      release_(moves ? 1 : release),
+      moves_(std::move(moves)),
       places_(precedence_.robots()),
       rings_(findRings(precedence_)) {
   for (std::uint32_t robot = 0; robot < places_.size(); ++robot) {
@@ -22,6 +29,21 @@ ExecutionGraph::ExecutionGraph(Precedence precedence, double release)
   for (std::uint32_t i = 0; i < rings_.size(); ++i) {
     for (const VisitId event : rings_[i]) ring_of_.emplace(event, i);
   }
+  if (moves_) waits_ = findCloseWaits(precedence_, *moves_);
+}
+
+bool ExecutionGraph::hasDone(VisitId event, double fraction) const {
+  const Place& place = places_[precedence_[event].robot];
+  if (place.at >= event) return true;
+  const bool moves = place.at + 1 == event && place.progress > 0;
+  return moves && place.progress >= fraction - kRounding;
+}
+
+bool ExecutionGraph::waitsAreOver(VisitId event) const {
+  bool over = true;
+  forEachAwaited(
+      event, [&](VisitId awaited, double fraction) { over = over && hasDone(awaited, fraction); });
+  return over;
 }
 
 const Ring* ExecutionGraph::ringOf(VisitId event) const {
@@ -30,21 +52,16 @@ const Ring* ExecutionGraph::ringOf(VisitId event) const {
   return ring == ring_of_.end() ? nullptr : &rings_[ring->second];
 }
 
-bool ExecutionGraph::hasLeft(VisitId event) const {
-  const Place& place = places_[precedence_[event].robot];
-  if (place.at >= event) return true;
-  const bool moves = place.at + 1 == event && place.progress > 0;
-  return moves && place.progress >= release_ - kRounding;
-}
+bool ExecutionGraph::hasLeft(VisitId event) const { return hasDone(event, release_); }
 
 bool ExecutionGraph::isReleased(VisitId event) const {
   if (const Ring* const ring = ringOf(event)) {
     return std::all_of(ring->begin(), ring->end(), [this](VisitId member) {
-      return places_[precedence_[member].robot].at + 1 >= member;
+      return places_[precedence_[member].robot].at + 1 >= member &&
+             (!moves_ || waitsAreOver(member));
     });
   }
-  const VisitId awaited = precedence_.awaits(event);
-  return awaited == kNoVisit || hasLeft(awaited);
+  return waitsAreOver(event);
 }
 
 ReportOutcome ExecutionGraph::report(std::uint32_t robot, VisitId visit, double fraction,

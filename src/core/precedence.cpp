@@ -97,6 +97,31 @@ std::vector<Ring> findRings(const Precedence& precedence) {
   return rings;
 }
 
+Precedence inOneOrder(const Precedence& precedence) {
+  std::vector<Visit> visits(precedence.size());
+  std::vector<bool> has_step(precedence.size(), false);
+  std::vector<VisitId> chain;
+  std::uint32_t step = 0;
+  for (const VisitId event : precedence.inPlanOrder()) {
+    chain.clear();
+    VisitId leader = event;
+    while (leader != kNoVisit && !has_step[leader]) {
+      has_step[leader] = true;
+      chain.push_back(leader);
+      leader = leaderOf(precedence, leader);
+    }
+    const bool is_ring = !chain.empty() && leader == event;
+    for (auto v = chain.rbegin(); v != chain.rend(); ++v) {
+      visits[*v] = precedence[*v];
+      visits[*v].before = visits[*v].after = kNoVisit;
+      visits[*v].step = step;
+      if (!is_ring) ++step;
+    }
+    if (is_ring) ++step;
+  }
+  return Precedence::fromVisits(std::move(visits), precedence.vertices());
+}
+
 namespace {
 
 /// Gives events their earliest steps in plan order, chains of a step from their leaders on.

@@ -22,10 +22,10 @@ class Growth {
     const VisitId last = promised_[robot];
     if (last >= order_.last(robot) || last - graph_.at(robot) >= rule_.ahead) return false;
     const Ring* const ring = graph_.ringOf(last + 1);
-    if (ring == nullptr) return graph_.isReleased(last + 1) && isOpen(last + 1);
-    return rule_.joint_rings && std::all_of(ring->begin(), ring->end(), [this](VisitId member) {
-             return graph_.at(order_[member].robot) + 1 >= member && isOpen(member);
-           });
+    if (!graph_.isReleased(last + 1)) return false;
+    if (ring == nullptr) return isOpen(last + 1);
+    return rule_.joint_rings && std::all_of(ring->begin(), ring->end(),
+                                            [this](VisitId member) { return isOpen(member); });
   }
 
   bool isOpen(VisitId event) const {
