@@ -9,8 +9,8 @@
 namespace split_mapf {
 namespace {
 
-// Touching counts as apart within this, as in the proof of planning graphs; beyond it twice.
-constexpr double kTouchM = 1e-6;
+// Touching counts as apart within this; the proof of planning graphs has half of it.
+constexpr double kTouchM = 2e-6;
 constexpr int kHalvings = 40;
 
 PlanePoint between(PlanePoint a, PlanePoint b, double part) {
@@ -77,7 +77,7 @@ class EdgeSquares {
 class PairSearch {
  public:
   PairSearch(const CloseMoves& moves, double distance_m)
-      : moves_(moves), distance_m_(std::max(0.0, distance_m - kTouchM)) {}
+      : moves_(moves), distance_m_(distance_m) {}
 
   std::vector<CloseMoves::Pair> run() {
     std::vector<MoveId> edges;

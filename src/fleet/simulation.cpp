@@ -60,7 +60,7 @@ void requireValid(const SimulationOptions& options) {
 namespace {
 
 std::uint32_t ticksOfAStep(const SimulationOptions& options) {
-  const bool whole = options.release <= 0 || options.release >= 1;
+  const bool whole = !options.moves && (options.release <= 0 || options.release >= 1);
   return whole && std::floor(options.turn_time) == options.turn_time ? 1 : kTicks;
 }
 
@@ -69,6 +69,16 @@ MotionTimes motionOf(const SimulationOptions& options) {
   times.move = ticksOfAStep(options);
   times.turn = static_cast<std::uint32_t>(std::ceil(options.turn_time * times.move - 1e-6));
   return times;
+}
+
+/// In lockstep.
+std::vector<std::uint32_t> stepsOf(const Plan& plan, std::uint32_t vertices,
+                                   ExecutionPolicy policy) {
+  std::vector<std::uint32_t> steps;
+  if (policy != ExecutionPolicy::kLockstep) return steps;
+  const Precedence order(plan, vertices);
+  for (VisitId v = 0; v < order.size(); ++v) steps.push_back(order[v].step);
+  return steps;
 }
 
 double threadCpuMs() {
@@ -89,10 +99,12 @@ class SimulationRun {
         delays_(options.delays, instance.robots()),
         standing_(instance.robots()),
         robots_(instance.grid(),
-                ExecutionGraph(Precedence(plan, instance.graph().size()), options.release), times_,
-                options.policy == ExecutionPolicy::kLockstep) {
+                ExecutionGraph(Precedence(plan, instance.graph().size()), options.release,
+                               options.moves),
+                times_, stepsOf(plan, instance.graph().size(), options.policy)) {
     report_.planned_sum_of_costs = sumOfCostsOf(plan);
     report_.planned_makespan = makespanOf(plan);
+    report_.ticks_per_step = times_.move;
     report_.executed.paths.resize(instance.robots());
     if (options.policy == ExecutionPolicy::kReplan) {
       replanner_.emplace(instance, times_, options.budget);
@@ -107,7 +119,7 @@ class SimulationRun {
       delays_.nextStep();
       observe();
       // Nothing is known at step 0, but rings may be in the plan.
-      const bool soon = options_.release > 0 && options_.avoid_rings;
+      const bool soon = robots_.graph().release() > 0 && options_.avoid_rings;
       if (replanner_ && (step_ > 0 || soon) && step_ % options_.replan_period == 0) {
         replan();
       }

@@ -9,11 +9,13 @@
 namespace split_mapf {
 
 TickedExecution::TickedExecution(const Grid& grid, ExecutionGraph graph, const MotionTimes& times,
-                                 bool lockstep)
-    : grid_(grid), graph_(std::move(graph)), times_(times), lockstep_(lockstep) {
+                                 std::vector<std::uint32_t> steps)
+    : grid_(grid), graph_(std::move(graph)), times_(times), steps_(std::move(steps)) {
   const std::uint32_t robots = order().robots();
   const double part = graph_.release() > 0 ? graph_.release() : 1;
   release_ticks_ = static_cast<std::uint32_t>(std::ceil(part * times_.move - 1e-6));
+  // There fractions differ; but who goes first sets out first.
+  if (graph_.closeMoves()) release_ticks_ = 1;
   ticks_.assign(robots, 0);
   turning_.assign(robots, 0);
   facing_.assign(robots, kNoVertex);
@@ -60,7 +62,8 @@ TickedExecution::Decision TickedExecution::decideAlone(std::uint32_t robot,
                                                        const Delays& delays) const {
   if (delays.isDelayed(robot) || turning_[robot] > 0) return Decision::kStay;
   const VisitId event = graph_.at(robot) + 1;
-  if (ticks_[robot] == 0 && lockstep_ && order()[event].step > barrier_) return Decision::kStay;
+  if (ticks_[robot] == 0 && !steps_.empty() && steps_[event] > barrier_) return Decision::kStay;
+  if (graph_.closeMoves()) return decideByCloseMoves(robot, event);
   const VisitId awaited = order().awaits(event);
   if (awaited == kNoVisit) return Decision::kGo;
   const std::uint32_t leader = order()[awaited].robot;
@@ -73,6 +76,14 @@ TickedExecution::Decision TickedExecution::decideAlone(std::uint32_t robot,
   }
   const bool ahead = graph_.at(leader) + 1 == awaited && ticks_[leader] > ticks_[robot];
   return ahead ? Decision::kGo : Decision::kStay;
+}
+
+/// On a planning graph: robots of a ring still move beside each other.
+TickedExecution::Decision TickedExecution::decideByCloseMoves(std::uint32_t robot,
+                                                              VisitId event) const {
+  if (ticks_[robot] == 0 && !graph_.isReleased(event)) return Decision::kStay;
+  if (graph_.ringOf(event) == nullptr) return Decision::kGo;
+  return leaderOf(robot) != kNobody ? Decision::kOpen : Decision::kGo;
 }
 
 /// Follows the chain of robots that would move beside each other up to one that is decided, or
@@ -112,10 +123,10 @@ void TickedExecution::advance(std::uint32_t robot) {
 void TickedExecution::tick(const Delays& delays) {
   ++now_;
   for (const std::uint32_t robot : under_way_) decisions_[robot] = Decision::kOpen;
-  if (lockstep_) {
+  if (!steps_.empty()) {
     barrier_ = 0xffffffffU;
     for (const std::uint32_t robot : under_way_) {
-      barrier_ = std::min(barrier_, order()[graph_.at(robot) + 1].step);
+      barrier_ = std::min(barrier_, steps_[graph_.at(robot) + 1]);
     }
   }
   goers_.clear();

@@ -14,8 +14,10 @@ namespace split_mapf {
 /// on does, unless it is delayed. Not thread-safe. Cost: O(robots under way) a tick.
 class TickedExecution {
  public:
-  /// @param lockstep  nobody begins a step of the plan before all have ended the one before.
-  TickedExecution(const Grid& grid, ExecutionGraph graph, const MotionTimes& times, bool lockstep);
+  /// @param steps  of the plan, by event: nobody begins one before all have ended the one before;
+  /// empty: everybody goes on as the graph allows.
+  TickedExecution(const Grid& grid, ExecutionGraph graph, const MotionTimes& times,
+                  std::vector<std::uint32_t> steps = {});
 
   void tick(const Delays& delays);
   /// Goes on with another plan behind what is under way. @pre made by concatenate() from graph().
@@ -48,6 +50,7 @@ class TickedExecution {
   const Precedence& order() const { return graph_.precedence(); }
   void decide(std::uint32_t robot, const Delays& delays);
   Decision decideAlone(std::uint32_t robot, const Delays& delays) const;
+  Decision decideByCloseMoves(std::uint32_t robot, VisitId event) const;
   std::uint32_t leaderOf(std::uint32_t robot) const;
   void advance(std::uint32_t robot);
   void faceNext(std::uint32_t robot);
@@ -58,8 +61,8 @@ class TickedExecution {
   const Grid& grid_;
   ExecutionGraph graph_;
   MotionTimes times_;
-  bool lockstep_;
-  std::uint32_t release_ticks_;  // of a move, until the vertex behind is free
+  std::vector<std::uint32_t> steps_;  // of the plan, in lockstep
+  std::uint32_t release_ticks_;       // of a move, until the vertex behind is free
   std::uint32_t now_ = 0;
   std::uint32_t barrier_ = 0;           // step of the plan that is under way
   std::vector<std::uint32_t> ticks_;    // by robot: of its move, done

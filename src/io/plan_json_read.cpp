@@ -116,6 +116,24 @@ MapPoint pointOf(const Json& value, const std::string& path, std::size_t robot, 
   return {value[0].get<double>(), value[1].get<double>()};
 }
 
+CellPaths pathsOf(const std::string& path, const Json& document) {
+  const Json& lists = document.at("paths");
+  if (!lists.is_array()) fail(path, "paths: read " + shown(lists) + ", expected a list of paths");
+  CellPaths paths;
+  paths.reserve(lists.size());
+  for (const Json& list : lists) {
+    const std::size_t robot = paths.size();
+    if (!list.is_array()) {
+      fail(path, "paths, robot " + std::to_string(robot) + ": read " + shown(list) +
+                     ", expected a list of cells");
+    }
+    std::vector<Cell>& cells = paths.emplace_back();
+    cells.reserve(list.size());
+    for (const Json& cell : list) cells.push_back(cellOf(cell, {path, robot, cells.size()}));
+  }
+  return paths;
+}
+
 }  // namespace
 
 DiscClaims readDiscPlanJson(const std::string& path) {
@@ -137,6 +155,7 @@ DiscClaims readDiscPlanJson(const std::string& path) {
     for (const Json& point : list) poses.push_back(pointOf(point, path, robot, poses.size()));
   }
   claims.radius_m = radiiOf(path, document, claims.poses.size());
+  claims.paths = pathsOf(path, document);
   return claims;
 }
 
@@ -145,24 +164,10 @@ CellPaths readPlanJson(const std::string& path) {
   const auto poses = document.find("poses");
   if (poses != document.end() && !poses->empty()) {
     fail(path,
-         "read a plan of robots that have size, expected one of cells (validate and render take "
-         "both: with --robot-radius, --cell-size or a scenario of poses)");
+         "read a plan of robots that have size, expected one of cells (validate, render and "
+         "simulate take both: with --robot-radius, --cell-size or a scenario of poses)");
   }
-  const Json& lists = document.at("paths");
-  if (!lists.is_array()) fail(path, "paths: read " + shown(lists) + ", expected a list of paths");
-  CellPaths paths;
-  paths.reserve(lists.size());
-  for (const Json& list : lists) {
-    const std::size_t robot = paths.size();
-    if (!list.is_array()) {
-      fail(path, "paths, robot " + std::to_string(robot) + ": read " + shown(list) +
-                     ", expected a list of cells");
-    }
-    std::vector<Cell>& cells = paths.emplace_back();
-    cells.reserve(list.size());
-    for (const Json& cell : list) cells.push_back(cellOf(cell, {path, robot, cells.size()}));
-  }
-  return paths;
+  return pathsOf(path, document);
 }
 
 }  // namespace split_mapf

@@ -44,6 +44,10 @@ ClaimedDiscs readClaimedDiscs(const CommandLine& line) {
                                          : claimed.files.task.robots[i].radius_m);
   }
   claimed.discs.clearance_m = roadmap.clearance_m;
+  for (std::size_t i = 0; i < claims.poses.size(); ++i) {
+    claimed.files.task.robots[i].radius_m = claimed.discs.radius_m[i];
+  }
+  claimed.paths = claims.paths;
   for (const std::vector<MapPoint>& poses : claims.poses) {
     Course& course = claimed.courses.emplace_back();
     for (const MapPoint& p : poses) course.push_back(toRaster(claimed.files.task.frame, p));

@@ -7,11 +7,15 @@
 
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/instance.h"
+#include "split_mapf/fleet/disc_simulation.h"
 #include "split_mapf/fleet/simulation.h"
+#include "split_mapf/io/pose_scenario.h"
 #include "tool/command_line.h"
 #include "tool/commands.h"
+#include "tool/disc_plan.h"
 #include "tool/files.h"
 #include "tool/league_result.h"
+#include "tool/robot_options.h"
 #include "tool/simulation_output.h"
 #include "tool/stop_signals.h"
 #include "tool/valid_plan.h"
@@ -26,7 +30,7 @@ void declareOptions(CommandLine& line) {
   const SimulationOptions defaults;
   const DelayModel& delays = defaults.delays;
   line.require("map", "FILE", "MovingAI .map, or map_server .yaml");
-  line.require("scen", "FILE", "MovingAI .scen");
+  line.require("scen", "FILE", "MovingAI .scen, or .yaml with poses of robots");
   line.require("plan", "FILE", "JSON with `paths`, as `plan --output` writes it");
   line.offer(
       "policy", "NAME",
@@ -43,6 +47,7 @@ void declareOptions(CommandLine& line) {
              "uniform or gaussian lengths (" + toString(delays.distribution) + ")");
   line.offer("seed", "N", "all randomness (0)");
   line.offer("turn-time", "STEPS", "of a quarter turn in place (0)");
+  declareRobotOptions(line);
   line.offer(
       "release", "FRACTION",
       "of its move out of a cell that a robot must have done before the next may set out for "
@@ -114,14 +119,51 @@ void printSummary(const SimulationOptions& options, const SimulationReport& repo
   }
 }
 
+/// Tells who did not arrive, if anybody.
+ExitCode conclude(const std::vector<std::uint32_t>& unfinished, std::size_t robots,
+                  const Deadline& deadline) {
+  if (unfinished.empty()) return ExitCode::kOk;
+  std::cerr << "split_mapf: " << unfinished.size() << " of " << robots
+            << " robots did not arrive, the first of them robot " << unfinished.front() << "\n";
+  if (deadline.stopRequested()) return ExitCode::kCancelled;
+  return deadline.timeIsUp() ? ExitCode::kTimeout : ExitCode::kNoPlanFound;
+}
+
+/// Robots that have size: discs on a planning graph.
+ExitCode simulateDiscPlan(const CommandLine& line, const SimulationOptions& options,
+                          const std::string& file, const Deadline& deadline) {
+  for (const char* name : {"release", "export"}) {
+    if (!line.has(name)) continue;
+    throw OptionError(std::string("option --") + name +
+                      " means nothing to robots that have size: of each two moves that come close "
+                      "the part to be done first is found, and the League has cells only");
+  }
+  const DiscPlan task = readDiscPlan(line, deadline);
+  const DiscSimulationReport report = simulateDiscs(*task.problem, task.plan, options, deadline);
+  if (!file.empty()) {
+    std::ostringstream text;
+    writeDiscSimulationJson(text, task.problem->instance(), task.problem->task().frame, options,
+                            report);
+    writeText(file, text.str());
+  }
+  if (!line.has("quiet") && file != "-") {
+    printSummary(options, report.paths);
+    std::cout << "legs: " << report.departure_steps << " steps onto the planning graph, "
+              << report.arrival_steps << " off it\n";
+  }
+  return conclude(report.unfinished, task.problem->instance().robots(), deadline);
+}
+
 }  // namespace
 
 ExitCode runSimulate(const Call& call) {
   CommandLine line(
       "simulate",
       "Executes a plan in simulated time by robots that are late, and tells what it\n"
-      "costs. What was executed is checked by the validator. Exit code: 0 all arrived,\n"
-      "6 some did not, 3 time limit, 4 stopped by a signal.");
+      "costs. What was executed is checked by the validator. Robots that have size (--scen\n"
+      "FILE.yaml, or --robot-radius) are discs on the planning graph: give the options that\n"
+      "the plan was made with. Exit code: 0 all arrived, 6 some did not, 3 time limit, 4 stopped "
+      "by a signal.");
   declareOptions(line);
   if (!line.parse(call.arguments)) return ExitCode::kOk;
   const SimulationOptions options = readOptions(line);
@@ -130,6 +172,10 @@ ExitCode runSimulate(const Call& call) {
   if (!file.empty() && file != "-") requireWritable(file);
   const double limit_sec = line.number("time-limit", std::numeric_limits<double>::infinity(), 0);
   const Deadline deadline(limit_sec, catchStopSignals());
+  if (asksForRoadmap(readRobotOptions(line).roadmap) || isPoseScenario(line.text("scen"))) {
+    return simulateDiscPlan(line, options, file, deadline);
+  }
+  requireNoDiscOptions(line);
   const ValidPlan task = readValidPlan(line.text("map"), line.text("scen"), line.text("plan"));
   const SimulationReport report = simulate(task.instance, task.plan, options, deadline);
   if (!file.empty()) {
@@ -142,12 +188,7 @@ ExitCode runSimulate(const Call& call) {
     writeText(file, text.str());
   }
   if (!line.has("quiet") && file != "-") printSummary(options, report);
-  if (report.unfinished.empty()) return ExitCode::kOk;
-  std::cerr << "split_mapf: " << report.unfinished.size() << " of " << task.instance.robots()
-            << " robots did not arrive, the first of them robot " << report.unfinished.front()
-            << "\n";
-  if (deadline.stopRequested()) return ExitCode::kCancelled;
-  return deadline.timeIsUp() ? ExitCode::kTimeout : ExitCode::kNoPlanFound;
+  return conclude(report.unfinished, task.instance.robots(), deadline);
 }
 
 }  // namespace split_mapf::tool

@@ -22,13 +22,17 @@ Json steps(double value) {
 
 }  // namespace
 
-void writeSimulationJson(std::ostream& out, const Instance& instance,
-                         const SimulationOptions& options, const SimulationReport& report) {
+namespace {
+
+void writeField(std::ostream& out, const char* name, const Json& value) {
+  out << "  \"" << name << "\": " << value.dump() << ",\n";
+}
+
+/// All but the lists of robots.
+void writeFigures(std::ostream& out, const SimulationOptions& options,
+                  const SimulationReport& report) {
   const double planned = static_cast<double>(report.planned_sum_of_costs);
-  const auto field = [&out](const char* name, const Json& value) {
-    out << "  \"" << name << "\": " << value.dump() << ",\n";
-  };
-  out << "{\n";
+  const auto field = [&out](const char* name, const Json& value) { writeField(out, name, value); };
   field("policy", toString(options.policy));
   field("seed", options.delays.seed);
   field("planned_sum_of_costs", report.planned_sum_of_costs);
@@ -41,12 +45,48 @@ void writeSimulationJson(std::ostream& out, const Instance& instance,
   field("replans_taken", report.replans_taken);
   field("replan_cpu_ms", {{"mean", report.replan_cpu_ms_mean}, {"max", report.replan_cpu_ms_max}});
   field("rings", report.rings);
-  field("unfinished", report.unfinished);
+}
+
+void writePaths(std::ostream& out, const Grid& grid, const Plan& executed) {
   out << "  \"paths\": [";
   const char* separator = "\n    ";
-  for (const std::vector<Cell>& path : cellPathsOf(instance.grid(), report.executed)) {
+  for (const std::vector<Cell>& path : cellPathsOf(grid, executed)) {
     Json row = Json::array();
     for (const Cell cell : path) row.push_back({cell.x, cell.y});
+    out << separator << row.dump();
+    separator = ",\n    ";
+  }
+  out << "\n  ]";
+}
+
+}  // namespace
+
+void writeSimulationJson(std::ostream& out, const Instance& instance,
+                         const SimulationOptions& options, const SimulationReport& report) {
+  out << "{\n";
+  writeFigures(out, options, report);
+  writeField(out, "unfinished", report.unfinished);
+  writePaths(out, instance.grid(), report.executed);
+  out << "\n}\n";
+}
+
+void writeDiscSimulationJson(std::ostream& out, const Instance& instance, const MapFrame& frame,
+                             const SimulationOptions& options, const DiscSimulationReport& report) {
+  out << "{\n";
+  writeFigures(out, options, report.paths);
+  writeField(out, "unfinished", report.unfinished);
+  writeField(out, "departure_steps", steps(report.departure_steps));
+  writeField(out, "arrival_steps", steps(report.arrival_steps));
+  writeField(out, "poses_per_step", report.ticks_per_step);
+  writePaths(out, instance.grid(), report.paths.executed);
+  out << ",\n  \"poses\": [";
+  const char* separator = "\n    ";
+  for (const Course& course : report.courses) {
+    Json row = Json::array();
+    for (const MapPoint& place : course) {
+      const MapPoint p = toFrame(frame, place);
+      row.push_back({p.x, p.y});
+    }
     out << separator << row.dump();
     separator = ",\n    ";
   }

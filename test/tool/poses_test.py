@@ -33,6 +33,29 @@ class PosesTest(CommandTest):
         return self.expect(code, "plan", "--map", "rooms.yaml", "--scen", "poses.yaml",
                            "--robot-radius", 0.3, "--output", "plan.json", *options)
 
+    def test_late_robots_that_have_size_keep_apart(self):
+        self.write_two_rooms()
+        self.write("poses.yaml", POSES)
+        self.plan(0)
+        files = ["--map", "rooms.yaml", "--scen", "poses.yaml", "--plan", "plan.json"]
+        for policy in ["lockstep", "graph", "replan"]:
+            self.expect(0, "simulate", *files, "--robot-radius", 0.3, "--policy", policy,
+                        "--delay-probability", 0.05, "--max-delay", 5, "--output", "run.json")
+            result = self.read_json("run.json")
+            self.assertEqual(result["unfinished"], [])
+            self.assertGreater(result["delayed_share"], 0)
+            first, second = result["poses"]
+            self.assertGreaterEqual(self.least_gap(first, second), 0.6 - 1e-5)
+            self.assertAlmostEqual(math.hypot(first[-1][0] - 6.5, first[-1][1] - 2.02), 0)
+            self.assertAlmostEqual(math.hypot(second[0][0] - 6.1, second[0][1] - 3.3), 0)
+        # Another graph has other vertices.
+        self.expect_refusal("not on the planning graph", "simulate", *files, "--cell-size", 1.2)
+        self.expect_refusal("--release means nothing", "simulate", *files, "--release", 0.5)
+        self.write_problem("grid", ["..", ".."], [((0, 0), (1, 1))])
+        self.expect_refusal("--ignore-specks needs robots that have size", "simulate", "--map",
+                            "grid.map", "--scen", "grid.scen", "--plan", "plan.json",
+                            "--ignore-specks", 3)
+
     def least_gap(self, first, second):
         """Between two centres that go straight from step to step, sampled."""
         least = math.inf

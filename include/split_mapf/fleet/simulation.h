@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "split_mapf/core/close_moves.h"
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/delays.h"
 #include "split_mapf/core/instance.h"
@@ -36,6 +38,9 @@ struct SimulationOptions {
   /// Of its move out of a vertex a robot must have done so much before the next may come, see
   /// releaseFraction(); 0: in the same step, as in the plan.
   double release = 0;
+  /// Of a planning graph, see ExecutionGraph: then each move has fractions of its own, and
+  /// `release` means nothing. Null: a grid.
+  std::shared_ptr<const CloseMoves> moves;
   double turn_time = 0;             ///< [steps] of a quarter turn in place, >= 0
   std::uint32_t replan_period = 5;  ///< [steps] between replans, >= 1
   ReplanBudget budget;
@@ -62,6 +67,7 @@ struct SimulationReport {
   double executed_sum_of_costs = 0;        ///< [steps] when robots came to their goals for good
   double executed_makespan = 0;            ///< [steps]
   double delayed_share = 0;  ///< of the time that robots had until they arrived, 0 to 1
+  std::uint32_t ticks_per_step = 1;
   std::uint32_t replans = 0;
   std::uint32_t replans_taken = 0;  ///< that were cheaper than going on
   double replan_cpu_ms_mean = 0;

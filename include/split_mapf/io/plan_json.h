@@ -59,8 +59,9 @@ struct DiscClaims {
   double clearance_m = 0;
   std::vector<double> radius_m;  ///< a robot; empty where the file has no `radii`
   std::vector<std::vector<MapPoint>> poses;
+  CellPaths paths;  ///< on the planning graph
 };
-/// Reads it. @throws InputError as readPlanJson(), and "path: ..." for a missing `poses`, a point
+/// Reads it. What paths and poses claim is not judged. @throws InputError as readPlanJson(), and "path: ..." for a missing `poses`, a point
 /// that is no pair of numbers, a radius or clearance that is no number of 0 or more, and another
 /// number of `radii` than of `poses`.
 DiscClaims readDiscPlanJson(const std::string& path);
