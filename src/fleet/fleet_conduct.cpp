@@ -26,19 +26,48 @@ std::vector<bool> FleetExecution::closedCells() const {
   return closed;
 }
 
+/// A robot that takes no part may be anywhere on its way up to its promise.
+std::vector<Edge> FleetExecution::closedEdges() const {
+  std::vector<Edge> closed;
+  if (!options_.moves) return closed;
+  const CloseMoves& moves = *options_.moves;
+  const Precedence& order = graph_.precedence();
+  for (std::uint32_t robot = 0; robot < robots_.size(); ++robot) {
+    if (takesPart(robot)) continue;
+    for (VisitId v = graph_.at(robot); v < promised_[robot]; ++v) {
+      const MoveId move = moves.moveOf(order[v].vertex, order[v + 1].vertex);
+      for (const CloseMoves::Close& close : moves.closeTo(move)) {
+        const auto ends = std::minmax(moves.from(close.move), moves.to(close.move));
+        closed.emplace_back(ends.first, ends.second);
+      }
+    }
+  }
+  std::sort(closed.begin(), closed.end());
+  closed.erase(std::unique(closed.begin(), closed.end()), closed.end());
+  return closed;
+}
+
 /// Whom what was planned leads to a closed cell has to be planned anew.
 void FleetExecution::closeCells() {
   closed_ = closedCells();
+  closed_edges_ = closedEdges();
   for (const Joiner& joiner : joiners_) closed_[joiner.at] = true;
   if (leadsToClosed()) incident_ = true;
 }
 
 bool FleetExecution::leadsToClosed() const {
   const Precedence& order = graph_.precedence();
+  const auto is_closed = [this](Vertex from, Vertex to) {
+    if (closed_[to]) return true;
+    if (closed_edges_.empty()) return false;
+    const auto ends = std::minmax(from, to);
+    return std::binary_search(closed_edges_.begin(), closed_edges_.end(),
+                              Edge(ends.first, ends.second));
+  };
   for (std::uint32_t robot = 0; robot < robots_.size(); ++robot) {
     if (!takesPart(robot)) continue;
     for (VisitId v = promised_[robot] + 1; v <= order.last(robot); ++v) {
-      if (closed_[order[v].vertex]) return true;
+      if (is_closed(order[v - 1].vertex, order[v].vertex)) return true;
     }
   }
   return false;
@@ -163,8 +192,8 @@ void FleetExecution::remove(std::uint32_t robot) {
       sequences.push_back(sequences_[v]);
     }
   }
-  ExecutionGraph rest(Precedence::fromVisits(std::move(visits), order.vertices()),
-                      graph_.release());
+  ExecutionGraph rest(Precedence::fromVisits(std::move(visits), order.vertices()), graph_.release(),
+                      options_.moves);
   for (std::uint32_t i = 0, number = 0; i < robots_.size(); ++i) {
     if (i != robot) rest.resume(number++, graph_.progress(i));
   }

@@ -108,6 +108,10 @@ void requireValid(const FleetOptions& options) {
   requireWithin(options.progress_timeout_sec, "progress_timeout", 1e-3, 1e6);
   requireWithin(options.obstacle_time_sec, "obstacle_time", 0, 1e9);
   requireWithin(options.release_ahead, "release_ahead", 1, 1000);
+  if (!options.moves || !options.joint_rings) return;
+  throw OptionError(
+      "rings joint is for robots on grids; those on a planning graph keep apart in a rotation only "
+      "at the same speed, so it has to be avoid");
 }
 
 FleetExecution::FleetExecution(std::shared_ptr<const Grid> grid, std::vector<std::string> ids,
@@ -115,7 +119,7 @@ FleetExecution::FleetExecution(std::shared_ptr<const Grid> grid, std::vector<std
     : grid_(std::move(grid)),
       options_(validOptions(options, options.step_sec)),
       times_(motionOf(options_)),
-      graph_(Precedence(plan, grid_->size()), options.release),
+      graph_(Precedence(plan, grid_->size()), options.release, options.moves),
       asked_blocked_(grid_->size(), false),
       strangers_(grid_->size(), false),
       standing_(std::make_unique<StandingTimes>(static_cast<std::uint32_t>(ids.size()))),
@@ -146,7 +150,7 @@ FleetExecution::FleetExecution(std::shared_ptr<const Grid> grid, const FleetSnap
     : grid_(std::move(grid)),
       options_(validOptions(options, snapshot.step_sec)),
       times_(motionOf(options_)),
-      graph_(orderOf(snapshot, *grid_), snapshot.release),
+      graph_(orderOf(snapshot, *grid_), snapshot.release, options.moves),
       asked_blocked_(grid_->size(), false),
       strangers_(grid_->size(), false),
       standing_(
@@ -201,13 +205,13 @@ std::vector<RouteStep> FleetExecution::route(std::uint32_t robot, std::uint32_t 
     step.sequence = sequences_[v];
     step.vertex = order[v].vertex;
     step.released = v <= promised_[robot];
-    const VisitId awaited = v == graph_.at(robot) ? kNoVisit : order.awaits(v);
-    if (awaited != kNoVisit && !step.released && order[awaited].robot != robot) {
-      step.awaited_robot = order[awaited].robot;
-      step.awaited_sequence = sequences_[awaited - 1];
-      step.fraction = graph_.release();
+    if (v > graph_.at(robot) && !step.released) {
+      graph_.forEachAwaited(v, [&](VisitId awaited, double fraction) {
+        if (order[awaited].robot == robot || graph_.hasDone(awaited, fraction)) return;
+        step.waits.push_back({order[awaited].robot, sequences_[awaited - 1], fraction});
+      });
     }
-    steps.push_back(step);
+    steps.push_back(std::move(step));
   }
   return steps;
 }
@@ -242,10 +246,19 @@ std::vector<FleetRobotStatus> FleetExecution::status(double now) const {
             : now - began_ + options_.step_sec * ahead.ends[order.last(robot)] / times_.move;
     status.late_sec = ends - record.planned_sec;
     if (graph_.isDone(robot) || mayMove(robot)) continue;
-    const VisitId awaited = order.awaits(at + 1);
-    if (awaited != kNoVisit && !graph_.hasLeft(awaited)) status.waits_for = order[awaited].robot;
+    const std::optional<VisitId> awaited = firstUndone(at + 1);
+    if (awaited) status.waits_for = order[*awaited].robot;
   }
   return all;
+}
+
+/// Of what an event waits for.
+std::optional<VisitId> FleetExecution::firstUndone(VisitId event) const {
+  std::optional<VisitId> first;
+  graph_.forEachAwaited(event, [&](VisitId awaited, double fraction) {
+    if (!first && !graph_.hasDone(awaited, fraction)) first = awaited;
+  });
+  return first;
 }
 
 bool FleetExecution::anyMayMove() const {

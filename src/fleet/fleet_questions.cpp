@@ -98,7 +98,8 @@ FleetQuestion FleetExecution::makeQuestion(bool anew) {
           budget,
           avoid,
           ground_,
-          !anyMayMove()};
+          !anyMayMove(),
+          closedEdges()};
 }
 
 bool FleetExecution::isUrgent() const {

@@ -66,7 +66,7 @@ class FleetRun {
     starts_.insert(starts_.end(), question_.joiners.begin(), question_.joiners.end());
     std::vector<bool> takes_part = question_.takes_part;
     takes_part.resize(starts_.size(), true);
-    const auto open = openPart(question_.grid, question_.blocked);
+    const auto open = openPart(question_.grid, question_.blocked, question_.closed_edges);
     answer_.faults.assign(starts_.size(), GoalFault::kNone);
     for (std::size_t given_up = 0; given_up <= starts_.size(); ++given_up) {
       FleetGoals chosen = chooseGoals(*open, question_.blocked, starts_, question_.goals,
@@ -148,7 +148,7 @@ class FleetRun {
   /// Takes an edge out of the cycle of each ring of the last plan, where no robot can rotate then.
   /// As the edge lies on a cycle, its ends stay connected.
   void cutRings(std::uint32_t number) {
-    std::vector<Edge> removed;
+    std::vector<Edge> removed = question_.closed_edges;
     for (const std::vector<Edge>& ring : rings_) {
       removed.push_back(ring[(question_.budget.seed + number) % ring.size()]);
     }
@@ -204,13 +204,16 @@ class FleetRun {
   /// Keeps the ground as long as cells and goals are the same.
   void prepareGround(const std::vector<Vertex>& goals) {
     const bool same = answer_.ground && answer_.ground->blocked == question_.blocked &&
+                      answer_.ground->closed == question_.closed_edges &&
                       answer_.ground->instance.goals() == goals;
-    if (!same) setGround(openPart(question_.grid, question_.blocked), goals);
+    if (same) return;
+    setGround(openPart(question_.grid, question_.blocked, question_.closed_edges), goals);
   }
 
   void setGround(std::shared_ptr<const Grid> open, const std::vector<Vertex>& goals) {
     answer_.ground = std::make_shared<FleetGround>(
         std::move(open), starts_, goals, question_.blocked, question_.times, question_.budget);
+    answer_.ground->closed = question_.closed_edges;
   }
 
   const FleetQuestion& question_;

@@ -226,10 +226,10 @@ bool FleetExecution::settleOne(std::uint32_t robot, double part, std::vector<Vis
     const double fraction = event == targets[robot] ? part : 1;
     if (fraction < 1 && isUnderWay(robot)) break;
     if (graph_.report(robot, event, fraction) != ReportOutcome::kTaken) {
-      const VisitId awaited = order.awaits(event);
-      const std::uint32_t before = awaited == kNoVisit ? robot : order[awaited].robot;
-      if (before == robot || robots_[before].was_heard || targets[before] >= awaited) break;
-      targets[before] = awaited;
+      const std::optional<VisitId> awaited = firstUndone(event);
+      const std::uint32_t before = awaited ? order[*awaited].robot : robot;
+      if (before == robot || robots_[before].was_heard || targets[before] >= *awaited) break;
+      targets[before] = *awaited;
       return true;
     }
     changed = true;

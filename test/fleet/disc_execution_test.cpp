@@ -7,47 +7,24 @@
 #include <string>
 #include <vector>
 
+#include "fleet/drawn_ground.h"
 #include "split_mapf/core/execution_cut.h"
 #include "split_mapf/core/execution_graph.h"
 #include "split_mapf/core/validate.h"
 #include "split_mapf/io/map_server.h"
 #include "split_mapf/io/occupancy.h"
-#include "split_mapf/roadmap/execution_moves.h"
 #include "split_mapf/roadmap/roadmap.h"
 #include "support/benchmarks.h"
 #include "support/disc_checker.h"
-#include "support/drawn_rooms.h"
 #include "support/long_run.h"
 #include "support/random_plan.h"
 
 namespace split_mapf {
 namespace {
 
-/// A planning graph on a drawn building.
-struct Ground {
-  Roadmap roadmap;
-  std::shared_ptr<const Grid> grid;
-  std::shared_ptr<const CloseMoves> moves;
-};
-
-Ground groundOf(const ObstacleRaster& raster, const RoadmapOptions& options) {
-  Ground ground;
-  ground.roadmap = *buildRoadmap(raster, options);
-  ground.grid = gridOf(ground.roadmap);
-  ground.moves = closeMovesOf(ground.roadmap);
-  return ground;
-}
-
-Ground drawGround(std::uint64_t seed) {
-  RoadmapOptions options;
-  options.robot_radius_m = std::vector<double>{0.25, 0.3, 0.35}[seed % 3];
-  options.clearance_m = seed % 2 == 0 ? 0.02 : 0;
-  const double reach = options.robot_radius_m + options.clearance_m;
-  const auto door = static_cast<std::uint32_t>(std::ceil(2 * reach / 0.05 + 1 - 1e-9));
-  const std::uint32_t spacing = leastSpacingCells(options, 0.05);
-  const test::DrawnRooms drawn = test::drawRooms(seed, door, 2 * spacing, 0.05);
-  return groundOf(drawn.raster, options);
-}
+using test::drawGround;
+using test::Ground;
+using test::groundOf;
 
 /// Robots that set out when the graph lets them and chance has it, and go on by chance.
 class RandomDrive {

@@ -1,10 +1,13 @@
 // Fleets of discs with everything that goes wrong, drawn from a seed.
 
+#include <algorithm>
 #include <iostream>
 #include <set>
+#include <utility>
 
 #include <gtest/gtest.h>
 
+#include "fleet/drawn_ground.h"
 #include "fleet/fleet_world.h"
 #include "support/ascii_grid.h"
 #include "support/long_run.h"
@@ -38,6 +41,8 @@ std::vector<std::vector<std::string>> maps() {
 struct Scene {
   std::shared_ptr<const Grid> grid;
   Plan plan;
+  std::shared_ptr<const CloseMoves> moves = nullptr;
+  double distance_m = 0;
 };
 
 Scene sceneOf(std::uint64_t seed) {
@@ -50,12 +55,33 @@ Scene sceneOf(std::uint64_t seed) {
   return run;
 }
 
+/// On a planning graph of a drawn building: there plans for robots that have size are executed.
+Scene planningSceneOf(std::uint64_t seed) {
+  RandomEngine engine(seed);
+  const test::Ground ground = test::drawGround(seed % 60);
+  Scene run;
+  run.grid = ground.grid;
+  run.moves = ground.moves;
+  run.distance_m = test::distanceOn(ground);
+  const std::uint32_t most = std::max(3U, ground.grid->size() / 3);
+  run.plan = test::randomValidPlan(
+      *run.grid, std::min(most, 3 + static_cast<std::uint32_t>(drawBelow(engine, 7))), 14, engine);
+  return run;
+}
+
+FleetOptions optionsOn(const Scene& scene, std::uint64_t seed) {
+  FleetOptions options = optionsOf(seed);
+  options.moves = scene.moves;
+  return options;
+}
+
 /// A fleet of discs on a scene that belongs to a seed.
 struct Drive {
-  explicit Drive(std::uint64_t number)
+  explicit Drive(std::uint64_t number, Scene there)
       : seed(number),
-        scene(sceneOf(number)),
-        world(scene.grid, scene.plan, optionsOf(number), number) {}
+        scene(std::move(there)),
+        world(scene.grid, scene.plan, optionsOn(scene, number), number, scene.distance_m) {}
+  explicit Drive(std::uint64_t number) : Drive(number, sceneOf(number)) {}
   void ticks(std::uint64_t most) {
     for (std::uint64_t i = 0; i < most; ++i) world.tick();
   }
@@ -101,11 +127,12 @@ void expectWell(Drive& run) {
 
 /// Runs what is to happen for each seed. @param more  so many times as many in a long run.
 template <typename What>
-void forSeeds(std::uint64_t seeds, const What& what, std::uint64_t more = 20) {
+void forSeeds(std::uint64_t seeds, const What& what, std::uint64_t more = 20,
+              Scene (*scene)(std::uint64_t) = sceneOf) {
   const std::uint64_t all = test::isLongRun() ? more * seeds : seeds;
   for (std::uint64_t seed = 0; seed < all && !::testing::Test::HasFatalFailure(); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    Drive run(seed);
+    Drive run(seed, scene(seed));
     what(run);
   }
 }
@@ -166,37 +193,56 @@ TEST(FleetRuns, LeadAroundBlockedCellsAndPausedRobots) {
   });
 }
 
-/// Robots late by up to a tenth of the time, deaths, and cells that are closed for a while or for
-/// good, while robots drive.
-TEST(FleetRuns, HaveNoCollisionsAndNoDeadlocks) {
+/// What happened in runs.
+struct Count {
   std::uint32_t deaths = 0;
   std::uint32_t closures = 0;
   std::uint32_t anew = 0;
   std::uint32_t runs = 0;
-  forSeeds(
-      50,
-      [&](Drive& run) {
-        FleetWorld& world = run.world;
-        // Each delay takes 4.5 s in the mean.
-        const int one_in[] = {0, 4500, 900, 405};
-        world.delay_one_in_ = one_in[drawBelow(world.engine_, 4)];
-        for (std::uint64_t times = drawBelow(world.engine_, 4); times > 0; --times) {
-          run.ticks(drawBelow(world.engine_, 60));
-          const std::uint64_t what = drawBelow(world.engine_, 3);
-          if (what == 0) run.die(run.someone(), drawBelow(world.engine_, 2) == 0);
-          run.closes = what == 0 ? run.closes : what == 1;
-          if (what > 0) world.fleet_->setBlocked(run.someCells(what == 1 ? 3 : 0));
-          ++(what == 0 ? deaths : closures);
-        }
-        expectWell(run);
-        anew += world.anew_;
-        ++runs;
-      },
-      200);
-  std::cout << runs << " runs, " << deaths << " deaths, " << closures
-            << " changes of closed cells, " << anew << " plans made anew" << std::endl;
-  EXPECT_GT(anew, 10U);
+};
+
+/// Robots late by up to a tenth of the time, deaths, and cells that are closed for a while or for
+/// good, while robots drive.
+void everythingGoesWrong(Drive& run, Count& count) {
+  FleetWorld& world = run.world;
+  // Each delay takes 4.5 s in the mean.
+  const int one_in[] = {0, 4500, 900, 405};
+  world.delay_one_in_ = one_in[drawBelow(world.engine_, 4)];
+  for (std::uint64_t times = drawBelow(world.engine_, 4); times > 0; --times) {
+    run.ticks(drawBelow(world.engine_, 60));
+    const std::uint64_t what = drawBelow(world.engine_, 3);
+    if (what == 0) run.die(run.someone(), drawBelow(world.engine_, 2) == 0);
+    run.closes = what == 0 ? run.closes : what == 1;
+    if (what > 0) world.fleet_->setBlocked(run.someCells(what == 1 ? 3 : 0));
+    ++(what == 0 ? count.deaths : count.closures);
+  }
+  expectWell(run);
+  count.anew += world.anew_;
+  ++count.runs;
 }
+
+void show(const Count& count) {
+  std::cout << count.runs << " runs, " << count.deaths << " deaths, " << count.closures
+            << " changes of closed cells, " << count.anew << " plans made anew" << std::endl;
+}
+
+TEST(FleetRuns, HaveNoCollisionsAndNoDeadlocks) {
+  Count count;
+  forSeeds(
+      50, [&](Drive& run) { everythingGoesWrong(run, count); }, 200);
+  show(count);
+  EXPECT_GT(count.anew, 10U);
+}
+
+TEST(FleetRuns, HaveNoCollisionsAndNoDeadlocksOnPlanningGraphs) {
+  Count count;
+  forSeeds(
+      60, [&](Drive& run) { everythingGoesWrong(run, count); }, 100, planningSceneOf);
+  show(count);
+  EXPECT_GT(count.anew, 10U);
+}
+
+TEST(FleetRuns, AreTakenUpAgainOnPlanningGraphs) { forSeeds(20, takeUpAgain, 20, planningSceneOf); }
 
 }  // namespace
 }  // namespace split_mapf

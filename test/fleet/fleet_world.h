@@ -29,18 +29,19 @@ inline PlanePoint pointOf(const Grid& grid, Vertex vertex) {
 /// blocked cells, pauses, and a conductor that dies. Positions are watched in continuous time.
 class FleetWorld {
  public:
+  /// @param distance_m  that centres keep on a planning graph.
   FleetWorld(std::shared_ptr<const Grid> grid, const Plan& plan, const FleetOptions& options,
-             std::uint64_t seed)
+             std::uint64_t seed, double distance_m = 0)
       : grid_(std::move(grid)),
         options_(options),
         engine_(seed),
         executor_(1),
         planner_(builtinSolvers(), executor_),
-        checker_(options.release / 2) {
+        checker_(options.moves ? distance_m / 2 - 2e-6 : options.release / 2) {
     std::vector<std::string> ids;
     for (std::uint32_t i = 0; i < plan.paths.size(); ++i) {
       ids.push_back("r" + std::to_string(i));
-      bodies_.emplace_back(pointOf(*grid_, plan.paths[i].front()), motion(), ids.back());
+      bodies_.emplace_back(placeOf(plan.paths[i].front()), motion(), ids.back());
     }
     fleet_ = std::make_unique<FleetExecution>(grid_, ids, plan, options_, now_);
     kept_ = fleet_->snapshot(now_);
@@ -129,6 +130,10 @@ class FleetWorld {
   int delay_one_in_ = 0;
   std::uint32_t anew_ = 0;
 
+  PlanePoint placeOf(Vertex vertex) const {
+    return options_.moves ? options_.moves->place(vertex) : pointOf(*grid_, vertex);
+  }
+
  private:
   RobotMotion motion() {
     RobotMotion motion;
@@ -198,7 +203,7 @@ class FleetWorld {
     for (const std::uint32_t robot : fleet_->takeChanged()) {
       std::vector<RouteLeg> legs;
       for (const RouteStep& step : fleet_->route(robot, 5)) {
-        legs.push_back({step.sequence, pointOf(*grid_, step.vertex), step.released});
+        legs.push_back({step.sequence, placeOf(step.vertex), step.released});
       }
       body(fleet_->id(robot))
           .routes.push_back({tick_ + static_cast<int>(drawBelow(engine_, 4)), std::move(legs)});

@@ -27,20 +27,27 @@ struct FleetOptions {
   double obstacle_time_sec = 60;    ///< for so long a cell that a robot found blocked is avoided
   std::uint32_t release_ahead = 2;  ///< visits that a robot is promised
   ReplanBudget budget;
+  /// Of a planning graph: then each move has releases of its own, and `release` means nothing; with
+  /// it no joint rings. Null: a grid.
+  std::shared_ptr<const CloseMoves> moves;
 };
 /// @throws OptionError naming what is out of range.
 void requireValid(const FleetOptions& options);
+
+/// What a robot that is not released yet waits for: another robot has to do `fraction` of its move
+/// out of its visit `sequence`.
+struct RouteWait {
+  std::uint32_t robot = 0;
+  std::uint32_t sequence = 0;
+  double fraction = 0;
+};
 
 /// A visit on the route of a robot.
 struct RouteStep {
   std::uint32_t sequence = 0;
   Vertex vertex = kNoVertex;
-  bool released = false;  ///< it may go there, and this is never planned away
-  /// The robot that has to do `fraction` of its move out of its visit `awaited_sequence` before;
-  /// nothing: nobody.
-  std::optional<std::uint32_t> awaited_robot;
-  std::uint32_t awaited_sequence = 0;
-  double fraction = 0;
+  bool released = false;         ///< it may go there, and this is never planned away
+  std::vector<RouteWait> waits;  ///< what is not done yet
 };
 
 /// Where a robot stands.
@@ -201,6 +208,8 @@ class FleetExecution {
     return all_paused_ || cancelled_ || robots_[robot].paused;
   }
   std::vector<bool> closedCells() const;
+  std::vector<Edge> closedEdges() const;
+  std::optional<VisitId> firstUndone(VisitId event) const;
   void openCells();
   void closeCells();
   bool leadsToClosed() const;
@@ -231,7 +240,8 @@ class FleetExecution {
   std::vector<bool> asked_blocked_;       ///< by vertex, by order of the caller
   std::vector<bool> strangers_;           ///< by vertex: where they stand
   std::vector<Obstacle> obstacles_;       ///< as robots found them
-  std::vector<bool> closed_;  ///< by vertex: all of these, and where absent robots stand
+  std::vector<bool> closed_;        ///< by vertex: all of these, and where absent robots stand
+  std::vector<Edge> closed_edges_;  ///< close to those on which absent robots may be, ascending
   std::unique_ptr<StandingTimes> standing_;
   std::shared_ptr<FleetGround> ground_;
 

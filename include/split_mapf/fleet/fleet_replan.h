@@ -17,6 +17,8 @@
 
 namespace split_mapf {
 
+using Edge = std::pair<Vertex, Vertex>;  ///< the smaller one first
+
 /// What replans of a fleet share as long as blocked cells and goals stay: the instance on the cells
 /// that are open, and its distances. Used by one replan at a time.
 struct FleetGround {
@@ -28,6 +30,7 @@ struct FleetGround {
 
   Instance instance;
   std::vector<bool> blocked;  ///< by vertex
+  std::vector<Edge> closed;   ///< edges, as in the question
   RestReplanner replanner;
 };
 
@@ -51,6 +54,8 @@ struct FleetQuestion {
   bool avoid_rings = true;
   std::shared_ptr<FleetGround> ground;  ///< of the last answer; null: none yet
   bool stalled = false;                 ///< nobody has leave to go on
+  /// Edges that come too near to robots that take no part, ascending; none on a grid.
+  std::vector<Edge> closed_edges = {};
 };
 
 struct FleetAnswer {
@@ -70,8 +75,6 @@ struct FleetAnswer {
 /// @param request  solver and limits of plans made anew.
 FleetAnswer answerFleet(const FleetQuestion& question, const Planner& planner,
                         const PlanRequest& request, const Deadline& deadline);
-
-using Edge = std::pair<Vertex, Vertex>;  ///< the smaller one first
 
 /// The grid without moves to blocked cells and along the edges that are removed, if any; its
 /// vertices keep their numbers. Cost: O(edges), times those removed.

@@ -81,11 +81,11 @@ RobotRoute routeMessage(const FleetExecution& fleet, std::uint32_t robot, std::u
       if (message.visits.size() == 1) message.visits[0].pose.orientation = quaternionOf(yaw);
     }
     visit.pose.orientation = quaternionOf(yaw);
-    if (step.awaited_robot) {
+    for (const RouteWait& wait : step.waits) {
       RouteCondition condition;
-      condition.robot_id = fleet.id(*step.awaited_robot);
-      condition.sequence = step.awaited_sequence;
-      condition.fraction = static_cast<float>(step.fraction);
+      condition.robot_id = fleet.id(wait.robot);
+      condition.sequence = wait.sequence;
+      condition.fraction = static_cast<float>(wait.fraction);
       visit.conditions.push_back(condition);
     }
     message.visits.push_back(visit);
