@@ -12,7 +12,7 @@ function(split_mapf_add_ros_library ros_library room)
 endfunction()
 
 split_mapf_add_ros_library(split_mapf_ros convert)
-foreach(room server replay fleet)
+foreach(room server replay fleet scene)
   split_mapf_add_ros_library(split_mapf_ros_${room} ${room} STATIC)
   target_link_libraries(split_mapf_ros_${room} PUBLIC split_mapf_ros)
 endforeach()

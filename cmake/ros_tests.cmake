@@ -8,7 +8,7 @@ target_link_libraries(split_mapf_ros_test_support PUBLIC split_mapf_ros)
 split_mapf_compile_options(split_mapf_ros_test_support)
 
 split_mapf_add_tests(ros FOLDERS ros LIBRARIES split_mapf_ros_server split_mapf_ros_replay split_mapf_ros_fleet
-  split_mapf_ros_test_support split_mapf_available_solvers ${YAML_CPP_LIBRARIES})
+  split_mapf_ros_scene split_mapf_ros_test_support split_mapf_available_solvers ${YAML_CPP_LIBRARIES})
 
 foreach(name plan_server queue recall strange_goals answers discs)
   add_rostest_gtest(${name}_rostest test/ros/${name}.test

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Checks who includes and links whom, as docs and headers promise: the rooms below, each of which may
-#   include what its line names. Only ros and node know ROS, only one wrapper in the ILP solver knows
-#   GLPK, only one in a node MQTT, public headers include no private ones, and the core library links
-#   neither.
+#   include what its line names. Only ros, rviz and node know ROS, only rviz knows Qt and Ogre, only one
+#   wrapper in the ILP solver knows GLPK, only one in a node MQTT, public headers include no private
+#   ones, and the core library links none of them.
 # The checker first has to find violations that are planted in small trees of its own.
 #
 # usage: test/layering_test.sh [REPOSITORY]
@@ -33,6 +33,8 @@ declare -rA allowed=(
   [ros/server]="$planning ros/convert"
   [ros/replay]="$planning ros/convert"
   [ros/fleet]="$planning ros/convert"
+  [ros/scene]="$planning ros/convert"
+  [rviz]="$planning ros/convert ros/replay ros/scene"
   [node]="$planning ros/convert ros/server ros/replay ros/fleet"
 )
 readonly ros_packages='actionlib|catkin|diagnostic_updater|dynamic_reconfigure|interactive_markers|message_filters|nodelet|pluginlib|ros|rosbag|roscpp|rosconsole|rviz|tf|tf2|tf2_ros|tf2_[a-z_]*|[a-z_]*_msgs'
@@ -84,13 +86,17 @@ includes_of() {
 
 judge_include() {
   local place=$1 layer=$2 header=${3:1:-1} target room
-  if [[ $layer != ros/* && $layer != node ]] &&
+  if [[ $layer != ros/* && $layer != node && $layer != rviz ]] &&
     [[ $header =~ ^($ros_packages)/ || $header =~ ^split_mapf/[A-Z] ]]; then
     echo "$place: $layer includes the ROS header $header"
     return
   fi
   if [[ $header == glpk.h && $place != src/solver/ilp/glpk_model.cpp:* ]]; then
     echo "$place: only the wrapper src/solver/ilp/glpk_model.cpp may include $header"
+    return
+  fi
+  if [[ $header =~ ^(rviz/|Ogre|Q[A-Z]) && $3 == \<* && $layer != rviz ]]; then
+    echo "$place: only rviz knows rviz and what it is made of: $header"
     return
   fi
   if [[ $header == mosquitto.h && $place != src/node/mqtt_client.cpp:* ]]; then
@@ -207,6 +213,9 @@ test_the_checker() {
   require_found src/ros/server/room.cpp '#include "tool/private_room.h"'
   require_found src/ros/server/room.cpp '#include "ros/replay/room.h"'
   require_found include/split_mapf/ros/room.h '#include "ros/server/room.h"'
+  require_found src/ros/replay/room.cpp '#include "rviz/private_room.h"'
+  require_found src/rviz/room.cpp '#include "ros/server/room.h"'
+  require_found src/ros/server/room.cpp '#include <rviz/display.h>'
   require_found src/pipeline/room.cpp '#include "ros/server/room.h"'
   require_found src/pipeline/room.cpp '#include "fleet/private_room.h"'
   require_found src/improve/room.cpp '#include "split_mapf/pipeline/room.h"'

@@ -29,30 +29,6 @@ std::vector<std::uint32_t> indicesOf(const std::vector<Vertex>& vertices,
   return indices;
 }
 
-void requireConsistent(const PlanLayout& layout) {
-  const std::uint64_t cells = std::uint64_t{layout.grid.width} * layout.grid.height;
-  const auto require_cells = [cells](const std::vector<std::uint32_t>& indices) {
-    for (const std::uint32_t index : indices) {
-      if (index >= cells) {
-        throw InputError("the layout names cell " + std::to_string(index) + ", but its grid has " +
-                         std::to_string(cells));
-      }
-    }
-  };
-  for (const RegionOwnership& ownership : layout.ownerships) {
-    if (ownership.regions.size() == cells) continue;
-    throw InputError("an ownership of the layout has " + counted(ownership.regions.size(), "cell") +
-                     ", but its grid has " + std::to_string(cells));
-  }
-  require_cells(layout.buffers);
-  for (const LayoutPhase& phase : layout.phases) {
-    require_cells(phase.states);
-    if (phase.ownership < layout.ownerships.size()) continue;
-    throw InputError("a phase of the layout has ownership " + std::to_string(phase.ownership) +
-                     ", but there are " + std::to_string(layout.ownerships.size()));
-  }
-}
-
 /// Draws one phase after another.
 class LayoutPainter {
  public:
@@ -118,6 +94,30 @@ class LayoutPainter {
 };
 
 }  // namespace
+
+void requireConsistent(const PlanLayout& layout) {
+  const std::uint64_t cells = std::uint64_t{layout.grid.width} * layout.grid.height;
+  const auto require_cells = [cells](const std::vector<std::uint32_t>& indices) {
+    for (const std::uint32_t index : indices) {
+      if (index >= cells) {
+        throw InputError("the layout names cell " + std::to_string(index) + ", but its grid has " +
+                         std::to_string(cells));
+      }
+    }
+  };
+  for (const RegionOwnership& ownership : layout.ownerships) {
+    if (ownership.regions.size() == cells) continue;
+    throw InputError("an ownership of the layout has " + counted(ownership.regions.size(), "cell") +
+                     ", but its grid has " + std::to_string(cells));
+  }
+  require_cells(layout.buffers);
+  for (const LayoutPhase& phase : layout.phases) {
+    require_cells(phase.states);
+    if (phase.ownership < layout.ownerships.size()) continue;
+    throw InputError("a phase of the layout has ownership " + std::to_string(phase.ownership) +
+                     ", but there are " + std::to_string(layout.ownerships.size()));
+  }
+}
 
 namespace {
 

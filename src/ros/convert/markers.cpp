@@ -5,8 +5,8 @@
 #include <functional>
 #include <string>
 
-#include "split_mapf/core/error.h"
-#include "split_mapf/core/wording.h"
+#include "ros/convert/drawable_plan.h"
+#include "ros/convert/straight_runs.h"
 #include "split_mapf/ros/plan_messages.h"
 
 namespace split_mapf {
@@ -54,28 +54,6 @@ double robotSize(const MarkerStyle& style, const MultiRobotPlan& plan) {
 geometry_msgs::Point lifted(geometry_msgs::Point point, double height) {
   point.z += height;
   return point;
-}
-
-void requireDrawable(const MultiRobotPlan& plan) {
-  if (!std::isfinite(plan.step_duration) || plan.step_duration <= 0) {
-    throw InputError("the plan's step_duration is " + numeral(plan.step_duration) +
-                     " s; a number > 0 is needed");
-  }
-  const std::string too_long = faultOfWays(plan);
-  if (!too_long.empty()) throw InputError(too_long);
-  const std::uint64_t cells = std::uint64_t{plan.grid.width} * plan.grid.height;
-  for (const RobotPath& path : plan.paths) {
-    if (path.cells.empty()) {
-      throw InputError("the path of robot " + quote(path.robot_id) + " is empty");
-    }
-    const std::string fault = faultOfLegs(plan, path);
-    if (!fault.empty()) throw InputError("robot " + quote(path.robot_id) + " " + fault);
-    for (const std::uint32_t cell : path.cells) {
-      if (cell < cells) continue;
-      throw InputError("the path of robot " + quote(path.robot_id) + " enters cell " +
-                       std::to_string(cell) + ", but the grid has " + std::to_string(cells));
-    }
-  }
 }
 
 }  // namespace
@@ -207,21 +185,16 @@ void PlanMarkers::addTrail(const Way& way, std_msgs::ColorRGBA colour, double po
   const double last = static_cast<double>(way.size() - 1);
   const double begin = std::max(0.0, position - style_.trail_steps);
   const double end = std::min(position, last);
-  for (double from = begin; from < end;) {
-    const double to = std::min(end, std::floor(from) + 1);
-    const geometry_msgs::Point a = pointAt(way, from);
-    const geometry_msgs::Point b = pointAt(way, to);
-    if (a.x != b.x || a.y != b.y) {
-      // Fades with age.
-      for (const double when : {from, to}) {
-        colour.a = static_cast<float>(0.85 * (1 - (position - when) / style_.trail_steps));
-        marker.colors.push_back(colour);
-      }
-      marker.points.push_back(lifted(a, kTrailHeight * robot_size_m_));
-      marker.points.push_back(lifted(b, kTrailHeight * robot_size_m_));
-    }
-    from = to;
-  }
+  visitStraightRuns(
+      begin, end, [&](double when) { return pointAt(way, when); },
+      [&](double from, double to) {
+        // Fades with age.
+        for (const double when : {from, to}) {
+          colour.a = static_cast<float>(0.85 * (1 - (position - when) / style_.trail_steps));
+          marker.colors.push_back(colour);
+          marker.points.push_back(lifted(pointAt(way, when), kTrailHeight * robot_size_m_));
+        }
+      });
 }
 
 void PlanMarkers::addLabels(double position, const ros::Time& stamp, std::size_t stale,

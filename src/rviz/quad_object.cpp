@@ -1,0 +1,159 @@
+#include "rviz/quad_object.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include <OgreAxisAlignedBox.h>
+#include <OgreCamera.h>
+#include <OgreHardwareBufferManager.h>
+#include <OgreHardwarePixelBuffer.h>
+#include <OgreMaterialManager.h>
+#include <OgreNode.h>
+#include <OgrePass.h>
+#include <OgrePrerequisites.h>
+#include <OgreResourceGroupManager.h>
+#include <OgreTechnique.h>
+#include <OgreTextureManager.h>
+
+namespace split_mapf {
+namespace {
+
+constexpr const char* kName = "split_mapf/disc";
+constexpr std::size_t kCornersAQuad = 4;
+constexpr std::size_t kIndicesAQuad = 6;
+constexpr std::uint32_t kPictureSide = 64;  // [pixels]
+
+/// White; opaque within the disc, and a pixel's width of shade at its edge.
+Ogre::TexturePtr makePicture() {
+  const auto picture = Ogre::TextureManager::getSingleton().createManual(
+      kName, Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME, Ogre::TEX_TYPE_2D,
+      kPictureSide, kPictureSide, Ogre::MIP_UNLIMITED, Ogre::PF_BYTE_RGBA,
+      Ogre::TU_STATIC | Ogre::TU_AUTOMIPMAP);
+  std::vector<std::uint8_t> pixels;
+  const double middle = kPictureSide / 2.0;
+  for (std::uint32_t y = 0; y < kPictureSide; ++y) {
+    for (std::uint32_t x = 0; x < kPictureSide; ++x) {
+      const double inside = middle - std::hypot(x + 0.5 - middle, y + 0.5 - middle);
+      pixels.insert(pixels.end(), 3, 255);
+      pixels.push_back(static_cast<std::uint8_t>(255 * std::clamp(inside, 0.0, 1.0)));
+    }
+  }
+  picture->getBuffer()->blitFromMemory(
+      Ogre::PixelBox(kPictureSide, kPictureSide, 1, Ogre::PF_BYTE_RGBA, pixels.data()));
+  return picture;
+}
+
+Ogre::MaterialPtr findMaterial() {
+  Ogre::MaterialManager& materials = Ogre::MaterialManager::getSingleton();
+  if (materials.resourceExists(kName, Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME))
+    return materials.getByName(kName, Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME);
+  const Ogre::MaterialPtr material =
+      materials.create(kName, Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME);
+  material->setReceiveShadows(false);
+  Ogre::Pass* pass = material->getTechnique(0)->getPass(0);
+  pass->setLightingEnabled(false);
+  pass->setSceneBlending(Ogre::SBT_TRANSPARENT_ALPHA);
+  // Layers lie in one plane, and their order is that in which they are drawn.
+  pass->setDepthWriteEnabled(false);
+  pass->setDepthBias(1);
+  pass->setCullingMode(Ogre::CULL_NONE);
+  Ogre::TextureUnitState* unit = pass->createTextureUnitState(makePicture()->getName());
+  unit->setTextureAddressingMode(Ogre::TextureUnitState::TAM_CLAMP);
+  unit->setTextureFiltering(Ogre::TFO_TRILINEAR);
+  return material;
+}
+
+void declareCorners(Ogre::VertexDeclaration& declaration) {
+  declaration.addElement(0, offsetof(QuadVertex, x), Ogre::VET_FLOAT3, Ogre::VES_POSITION);
+  declaration.addElement(0, offsetof(QuadVertex, colour), Ogre::VET_COLOUR_ABGR, Ogre::VES_DIFFUSE);
+  declaration.addElement(0, offsetof(QuadVertex, u), Ogre::VET_FLOAT2,
+                         Ogre::VES_TEXTURE_COORDINATES);
+}
+
+std::vector<std::uint32_t> indicesOf(std::size_t quads) {
+  std::vector<std::uint32_t> indices;
+  indices.reserve(kIndicesAQuad * quads);
+  for (std::uint32_t quad = 0; quad < quads; ++quad) {
+    for (const std::uint32_t corner : {0U, 1U, 2U, 2U, 3U, 0U}) {
+      indices.push_back(static_cast<std::uint32_t>(kCornersAQuad) * quad + corner);
+    }
+  }
+  return indices;
+}
+
+}  // namespace
+
+QuadObject::QuadObject() {
+  const Ogre::MaterialPtr material = findMaterial();
+#if OGRE_VERSION < ((1 << 16) | (10 << 8))
+  setMaterial(material->getName());
+#else
+  setMaterial(material);
+#endif
+  mRenderOp.operationType = Ogre::RenderOperation::OT_TRIANGLE_LIST;
+  mRenderOp.useIndexes = true;
+  mRenderOp.vertexData = OGRE_NEW Ogre::VertexData;
+  mRenderOp.indexData = OGRE_NEW Ogre::IndexData;
+  declareCorners(*mRenderOp.vertexData->vertexDeclaration);
+  mBox.setNull();
+  setVisible(false);
+}
+
+QuadObject::~QuadObject() {
+  OGRE_DELETE mRenderOp.vertexData;
+  OGRE_DELETE mRenderOp.indexData;
+}
+
+void QuadObject::reserve(std::size_t corners) {
+  if (corners <= capacity_) return;
+  capacity_ = std::max(corners, 2 * capacity_);
+  const std::size_t quads = capacity_ / kCornersAQuad;
+  Ogre::HardwareBufferManager& buffers = Ogre::HardwareBufferManager::getSingleton();
+  mRenderOp.vertexData->vertexBufferBinding->setBinding(
+      0, buffers.createVertexBuffer(sizeof(QuadVertex), capacity_,
+                                    Ogre::HardwareBuffer::HBU_DYNAMIC_WRITE_ONLY_DISCARDABLE));
+  mRenderOp.indexData->indexBuffer =
+      buffers.createIndexBuffer(Ogre::HardwareIndexBuffer::IT_32BIT, kIndicesAQuad * quads,
+                                Ogre::HardwareBuffer::HBU_STATIC_WRITE_ONLY);
+  const std::vector<std::uint32_t> indices = indicesOf(quads);
+  mRenderOp.indexData->indexBuffer->writeData(0, sizeof(std::uint32_t) * indices.size(),
+                                              indices.data(), true);
+}
+
+void QuadObject::show(const QuadMesh& mesh) {
+  const std::vector<QuadVertex>& corners = mesh.corners();
+  setVisible(!corners.empty());
+  if (corners.empty()) return;
+  reserve(corners.size());
+  mRenderOp.vertexData->vertexStart = 0;
+  mRenderOp.vertexData->vertexCount = corners.size();
+  mRenderOp.indexData->indexStart = 0;
+  mRenderOp.indexData->indexCount = corners.size() / kCornersAQuad * kIndicesAQuad;
+  mRenderOp.vertexData->vertexBufferBinding->getBuffer(0)->writeData(
+      0, sizeof(QuadVertex) * corners.size(), corners.data(), true);
+  Ogre::AxisAlignedBox box;
+  Ogre::Vector3 least(corners[0].x, corners[0].y, corners[0].z);
+  Ogre::Vector3 most = least;
+  for (const QuadVertex& corner : corners) {
+    least.makeFloor({corner.x, corner.y, corner.z});
+    most.makeCeil({corner.x, corner.y, corner.z});
+  }
+  box.setExtents(least, most);
+  setBoundingBox(box);
+  if (getParentNode() != nullptr) getParentNode()->needUpdate();
+}
+
+Ogre::Real QuadObject::getBoundingRadius() const {
+  if (mBox.isNull()) return 0;
+  return std::max(mBox.getMinimum().length(), mBox.getMaximum().length());
+}
+
+Ogre::Real QuadObject::getSquaredViewDepth(const Ogre::Camera* camera) const {
+  return getParentNode()->getSquaredViewDepth(camera);
+}
+
+}  // namespace split_mapf

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+
+#include <OgreSimpleRenderable.h>
+
+#include "ros/scene/quad_mesh.h"
+
+namespace split_mapf {
+
+/// A mesh in the scene: one object, one draw call, however many robots. Of the GUI thread.
+class QuadObject : public Ogre::SimpleRenderable {
+ public:
+  QuadObject();
+  ~QuadObject() override;
+
+  /// Shows the mesh in place of the last one. Cost: a copy of it to the graphics card.
+  void show(const QuadMesh& mesh);
+
+  Ogre::Real getBoundingRadius() const override;
+  Ogre::Real getSquaredViewDepth(const Ogre::Camera* camera) const override;
+
+ private:
+  void reserve(std::size_t corners);
+
+  std::size_t capacity_ = 0;  // [corners]
+};
+
+}  // namespace split_mapf
