@@ -17,6 +17,7 @@ set(SPLIT_MAPF_CATKIN_DEPENDS
   tf2_geometry_msgs tf2_ros visualization_msgs)
 find_package(catkin REQUIRED COMPONENTS ${SPLIT_MAPF_CATKIN_DEPENDS} message_generation)
 
+include(cmake/python_package.cmake)  # before its generated part, which would begin with an empty one
 file(GLOB SPLIT_MAPF_MSG CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/msg msg/*.msg)
 file(GLOB SPLIT_MAPF_SRV CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/srv srv/*.srv)
 add_message_files(FILES ${SPLIT_MAPF_MSG})

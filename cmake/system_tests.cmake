@@ -12,6 +12,20 @@ add_test(NAME tool
     ${SPLIT_MAPF_PYTHON} -B -m unittest discover -s ${CMAKE_CURRENT_SOURCE_DIR}/test/tool -p *_test.py)
 set_tests_properties(tool PROPERTIES TIMEOUT 600)
 
+# The package for Python, where its module is built and numpy is there.
+if(TARGET split_mapf_python)
+  execute_process(COMMAND ${PYTHON_EXECUTABLE} -c "import numpy" RESULT_VARIABLE status ERROR_QUIET)
+  if(status EQUAL 0)
+    add_test(NAME python
+      COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${SPLIT_MAPF_PYTHON_DIR}
+        SPLIT_MAPF_COMMAND=$<TARGET_FILE:split_mapf>
+        ${PYTHON_EXECUTABLE} -B -m unittest discover -s ${CMAKE_CURRENT_SOURCE_DIR}/test/python -p *_test.py)
+    set_tests_properties(python PROPERTIES TIMEOUT 300)
+  else()
+    message(STATUS "numpy is not here: the test of the package for Python is left out")
+  endif()
+endif()
+
 # Tests run side by side. These measure time, so they have the machine to themselves: programs of
 # seconds, and rostests that hold the node to its limits. The other rostests mostly wait for states.
 # What takes longest begins first. Under sanitizers nobody looks at time.

@@ -9,7 +9,8 @@
 set -euo pipefail
 
 # Rooms that a room may include, besides itself. A room of `ros` is a folder of src/ros; what is
-# public of ros, include/split_mapf/ros, belongs to ros/convert.
+# public of ros, include/split_mapf/ros, belongs to ros/convert, and include/split_mapf/client.h to
+# ros/client. The room `python` is the folder python.
 readonly ground='core solvability parallel'
 readonly files="$ground roadmap io generate"
 readonly searches="$ground search solver"
@@ -29,7 +30,9 @@ declare -rA allowed=(
   [pipeline]="$files $searches split portfolio improve"
   [fleet]="$files $searches split portfolio improve pipeline"
   [tool]="$planning"
+  [python]="$planning"
   [ros/convert]="$planning"
+  [ros/client]='core'
   [ros/server]="$planning ros/convert"
   [ros/replay]="$planning ros/convert"
   [ros/fleet]="$planning ros/convert"
@@ -64,7 +67,9 @@ include_violations() {
 find_room() {
   local path=${1#src/}
   room=
-  if [[ $path =~ ^ros/([^/]+)/ ]]; then
+  if [[ $path == client.h ]]; then
+    room=ros/client
+  elif [[ $path =~ ^ros/([^/]+)/ ]]; then
     room=ros/${BASH_REMATCH[1]}
   elif [[ $path == ros/* ]]; then
     room=ros/convert
@@ -77,7 +82,7 @@ find_room() {
 # FILE:LINE:HEADER of every include directive; HEADER keeps its quotes or brackets.
 includes_of() {
   local folder
-  for folder in "$1/include" "$1/src"; do
+  for folder in "$1/include" "$1/src" "$1/python"; do
     [[ -d $folder ]] || continue
     grep -rnE '^[[:space:]]*#[[:space:]]*include' "$folder" |
       sed -E 's/^([^:]*:[0-9]+:)[[:space:]]*#[[:space:]]*include[[:space:]]*(["<][^">]*[">]).*/\1\2/'
@@ -155,7 +160,7 @@ write_clean_tree() {
   local root=$1 layer
   rm -rf "$root"
   for layer in "${!allowed[@]}"; do
-    [[ $layer != ros/* ]] || continue
+    [[ $layer != ros/* && $layer != python ]] || continue
     mkdir -p "$root/include/split_mapf/$layer" "$root/src/$layer"
     printf '#pragma once\n#include <vector>\n#include "split_mapf/core/grid.h"\n' \
       > "$root/include/split_mapf/$layer/room.h"
@@ -163,7 +168,11 @@ write_clean_tree() {
       > "$root/src/$layer/room.cpp"
   done
   mkdir -p "$root/src/solver/ilp" "$root/cmake" "$root/src/ros/server" "$root/src/ros/replay" \
-    "$root/include/split_mapf/ros"
+    "$root/include/split_mapf/ros" "$root/src/ros/client" "$root/python"
+  printf '#include <ros/ros.h>\n' > "$root/include/split_mapf/client.h"
+  printf '#include "split_mapf/client.h"\n#include "split_mapf/core/room.h"\n' \
+    > "$root/src/ros/client/room.cpp"
+  printf '#include "room.h"\n#include "split_mapf/pipeline/room.h"\n' > "$root/python/room.cpp"
   printf '#include <ros/ros.h>\n#include <split_mapf/PlanPathsAction.h>\n' > "$root/src/ros/server/room.cpp"
   printf '#include "split_mapf/ros/room.h"\n' > "$root/src/ros/replay/room.cpp"
   printf '#include "split_mapf/pipeline/room.h"\n' > "$root/include/split_mapf/ros/room.h"
@@ -210,6 +219,11 @@ test_the_checker() {
   require_found include/split_mapf/io/room.h '#include "split_mapf/pipeline/room.h"'
   require_found src/pipeline/room.cpp '#include "split_mapf/ros/room.h"'
   require_found src/tool/room.cpp '#include "split_mapf/ros/room.h"'
+  require_found python/room.cpp '#include <ros/ros.h>'
+  require_found python/room.cpp '#include "split_mapf/ros/room.h"'
+  require_found python/room.cpp '#include "tool/private_room.h"'
+  require_found src/ros/client/room.cpp '#include "split_mapf/ros/room.h"'
+  require_found src/pipeline/room.cpp '#include "split_mapf/client.h"'
   require_found src/ros/server/room.cpp '#include "tool/private_room.h"'
   require_found src/ros/server/room.cpp '#include "ros/replay/room.h"'
   require_found include/split_mapf/ros/room.h '#include "ros/server/room.h"'
