@@ -27,5 +27,5 @@ generate_messages(DEPENDENCIES actionlib_msgs geometry_msgs nav_msgs std_msgs)
 
 catkin_package(
   INCLUDE_DIRS include
-  LIBRARIES split_mapf_core split_mapf_ros
+  LIBRARIES split_mapf_core split_mapf_ros split_mapf_client
   CATKIN_DEPENDS ${SPLIT_MAPF_CATKIN_DEPENDS} message_runtime)

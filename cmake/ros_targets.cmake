@@ -12,6 +12,7 @@ function(split_mapf_add_ros_library ros_library room)
 endfunction()
 
 split_mapf_add_ros_library(split_mapf_ros convert)
+split_mapf_add_ros_library(split_mapf_client client)
 foreach(room server replay fleet scene)
   split_mapf_add_ros_library(split_mapf_ros_${room} ${room} STATIC)
   target_link_libraries(split_mapf_ros_${room} PUBLIC split_mapf_ros)
@@ -47,11 +48,11 @@ endif()
 catkin_install_python(PROGRAMS scripts/plan_client.py scripts/check_distances.py scripts/fleet_client.py
   scripts/route_driver.py scripts/start_rviz.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-install(TARGETS split_mapf_core ${SPLIT_MAPF_ILP_LIBRARY} split_mapf_ros
+install(TARGETS split_mapf_core ${SPLIT_MAPF_ILP_LIBRARY} split_mapf_ros split_mapf_client
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
 install(TARGETS split_mapf planner_node replay_node executor_node fake_robots_node
   RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/split_mapf/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
-install(DIRECTORY launch config rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+install(DIRECTORY launch config rviz examples DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

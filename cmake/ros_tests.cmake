@@ -20,7 +20,16 @@ endforeach()
 target_link_libraries(queue_rostest split_mapf_ros_server)
 target_sources(plan_server_rostest PRIVATE test/ros/plan_server_bad_goals.cpp)
 
-foreach(name client replay recording lifecycle sim_time launch big_maps termination)
+add_executable(plan_two_robots EXCLUDE_FROM_ALL examples/plan_two_robots.cpp)
+target_link_libraries(plan_two_robots split_mapf_client)
+split_mapf_compile_options(plan_two_robots)
+add_rostest_gtest(fleet_client_rostest test/ros/client.test
+  test/ros/fleet_client_rostest.cpp test/ros/rostest_main.cpp)
+target_link_libraries(fleet_client_rostest split_mapf_client ${GTEST_LIBRARIES})
+target_compile_options(fleet_client_rostest PRIVATE ${SPLIT_MAPF_WARNINGS} -O1)
+add_dependencies(fleet_client_rostest planner_node split_mapf plan_two_robots)
+
+foreach(name replay recording lifecycle sim_time launch big_maps termination)
   add_rostest(test/ros/${name}.test DEPENDENCIES planner_node replay_node split_mapf)
 endforeach()
 add_rostest(test/ros/fleet.test DEPENDENCIES executor_node fake_robots_node split_mapf)

@@ -56,6 +56,7 @@ void raise(const FaultyCells& error) {
 }  // namespace
 
 void translateErrors() {
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11 says how it is passed
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);

@@ -11,29 +11,17 @@ exit codes: 0 a valid plan, 1 bad usage or bad input, 2 no plan exists, 3 time l
 """
 
 import argparse
-import array
-import base64
 import json
-import math
-import os
-import subprocess
 import sys
 import threading
-import time
 
-import actionlib
-import roslib.packages
 import rospy
 from actionlib_msgs.msg import GoalStatus
-from nav_msgs.msg import OccupancyGrid
 
-from split_mapf.msg import PlanOptions, PlanOutcome, PlanPathsAction, PlanPathsGoal, RobotTask
+import split_mapf.ros as mapf
+from split_mapf.errors import InputError
+from split_mapf.msg import PlanOutcome
 
-OUTCOME_NAMES = {
-    value: name
-    for name, value in vars(PlanOutcome).items()
-    if name.isupper() and isinstance(value, int)
-}
 EXIT_CODES = {
     PlanOutcome.SUCCEEDED: 0,
     PlanOutcome.CANCELLED: 4,
@@ -45,150 +33,51 @@ EXIT_CODES = {
     PlanOutcome.SERVER_BUSY: 5,
     PlanOutcome.INTERNAL_ERROR: 5,
 }
-PASSAGES = {"true": PlanOptions.PASSAGES_ON, "false": PlanOptions.PASSAGES_OFF}
-UNKNOWN_SPACE = {"blocked": PlanOptions.UNKNOWN_SPACE_BLOCKED,
-                 "free": PlanOptions.UNKNOWN_SPACE_FREE}
-STATUS_WORDS = {0: "solved", 2: "unsolvable", 3: "timeout", 4: "cancelled", 6: "no_plan_found",
-                7: "memory_limit"}
+# Of a goal, by the names that they have there.
+OPTIONS = ("solver", "split", "objective", "suboptimality", "time_limit", "refine_time", "seed",
+           "threads", "step_duration", "solver_options", "split_options", "robot_radius",
+           "clearance", "cell_size", "snap_distance", "robot_speed", "ignore_specks", "passages",
+           "unknown_space")
 
 
-class InputError(Exception):
-    """A file or an option that does not say what it should."""
-
-
-class NoAnswer(Exception):
-    """The planner node, the map, or the command is not there."""
-
-
-def find_command():
-    """The command: catkin puts it beside this program."""
-    beside = os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), "split_mapf")
-    if os.path.isfile(beside):
-        return beside
-    places = roslib.packages.find_node("split_mapf", "split_mapf")
-    if not places:
-        raise NoAnswer("the command split_mapf, which reads maps and scenarios, is neither at %s "
-                       "nor elsewhere in the package; build or install it" % beside)
-    return places[0]
-
-
-def convert(*options):
-    """What the command reads from the files that the options name."""
-    call = [find_command(), "convert"]
-    for name, value in options:
-        if value:
-            call += ["--" + name, str(value)]
-    done = subprocess.run(call, stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
-    if done.returncode != 0:
-        message = done.stderr.decode("utf-8", "replace").strip().replace("split_mapf: ", "", 1)
-        error = InputError if done.returncode == 1 else NoAnswer
-        raise error(message or "%s ended with code %d" % (call[0], done.returncode))
-    return json.loads(done.stdout.decode("utf-8"))
-
-
-def grid_of(read):
-    """A map as an OccupancyGrid in frame `map`; its last row is the message's first."""
-    grid = OccupancyGrid()
-    grid.header.frame_id = "map"
-    width, height = grid.info.width, grid.info.height = read["width"], read["height"]
-    grid.info.resolution = read["resolution"]
-    x, y, yaw = read["origin"]
-    grid.info.origin.position.x, grid.info.origin.position.y = x, y
-    grid.info.origin.orientation.z = math.sin(yaw / 2)
-    grid.info.origin.orientation.w = math.cos(yaw / 2)
-    cells = array.array("b", base64.b64decode(read["occupancy"]))
-    grid.data = array.array("b")
-    for row in reversed(range(height)):
-        grid.data += cells[row * width:(row + 1) * width]
-    return grid
-
-
-def read_instance(args):
-    """The map, and the ways of the robots as (start x, start y, goal x, goal y), or their poses."""
-    scenario = (("scen", args.scen), ("agents", args.agents))
+def read_instance(args, fleet=None):
+    """The map, and the ways of the robots as [start x, start y, goal x, goal y] with y from the top,
+    or their poses."""
     if args.map:
-        read = convert(("map", args.map), ("resolution", args.resolution), *scenario)
-        grid = grid_of(read)
-    else:
-        grid = wait_for_map(args.wait)
-        if not grid.data:
-            raise InputError("the map on the topic %s has no cells" % rospy.resolve_name("map"))
-        read = convert(("size", "%dx%d" % (grid.info.width, grid.info.height)), *scenario)
-    if "robots" in read:
-        return grid, read["robots"]
-    return grid, [start + goal for start, goal in zip(read["starts"], read["goals"])]
-
-
-def wait_for_map(patience):
+        return mapf.read_instance(args.map, args.scen, args.agents, args.resolution)
     try:
-        return rospy.wait_for_message("map", OccupancyGrid, timeout=patience)
-    except rospy.ROSException as error:
-        raise NoAnswer("no map on the topic %s within %g s; give one with --map" %
-                       (rospy.resolve_name("map"), patience)) from error
+        grid = fleet.map(wait=args.wait)
+    except mapf.NoAnswer as error:
+        raise mapf.NoAnswer("%s; give one with --map" % error) from error
+    if not grid.data:
+        raise InputError("the map on the topic %s has no cells" % rospy.resolve_name("map"))
+    size = "%dx%d" % (grid.info.width, grid.info.height)
+    return grid, mapf.read_instance(None, args.scen, args.agents, size=size)[1]
 
 
-def place(pose, grid, x, y):
-    """Sets a pose to the centre of a cell, y counted from the top."""
-    info = grid.info
-    turn = info.origin.orientation
-    along_x = (x + 0.5) * info.resolution
-    along_y = (info.height - 1 - y + 0.5) * info.resolution
-    sine, cosine = 2 * turn.w * turn.z, 1 - 2 * turn.z * turn.z
-    pose.header.frame_id = grid.header.frame_id
-    pose.pose.position.x = info.origin.position.x + cosine * along_x - sine * along_y
-    pose.pose.position.y = info.origin.position.y + sine * along_x + cosine * along_y
-    pose.pose.orientation.w = 1.0
+def make_robots(grid, rows):
+    if rows and isinstance(rows[0], dict):
+        return mapf.robots_at_poses([row["start"] for row in rows], [row["goal"] for row in rows],
+                                    [row["id"] for row in rows],
+                                    [row["radius"] or 0.0 for row in rows], grid.header.frame_id)
+    top = grid.info.height - 1
+    return mapf.robots_at_cells(grid, [(x, top - y) for x, y, _, _ in rows],
+                                [(x, top - y) for _, _, x, y in rows])
 
 
-def stand(pose, grid, x, y, yaw):
-    """Sets a pose of the map's frame."""
-    pose.header.frame_id = grid.header.frame_id
-    pose.pose.position.x, pose.pose.position.y = x, y
-    pose.pose.orientation.z, pose.pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
-
-
-def make_goal(args, grid, rows):
-    goal = PlanPathsGoal()
-    if args.map:
-        goal.map = grid
-    poses = [row for row in rows if isinstance(row, dict)]
-    if poses:
-        for robot in poses:
-            task = RobotTask(robot_id=robot["id"], radius=robot["radius"] or 0.0)
-            stand(task.start, grid, *robot["start"])
-            stand(task.goal, grid, *robot["goal"])
-            goal.robots.append(task)
-        rows = []
-    for index, (start_x, start_y, goal_x, goal_y) in enumerate(rows):
-        task = RobotTask(robot_id="r%d" % index)
-        place(task.start, grid, start_x, start_y)
-        place(task.goal, grid, goal_x, goal_y)
-        goal.robots.append(task)
-    for name in ("solver", "split", "objective", "suboptimality", "time_limit", "refine_time",
-                 "seed", "threads", "step_duration", "solver_options", "split_options",
-                 "robot_radius", "clearance", "cell_size", "snap_distance", "robot_speed",
-                 "ignore_specks"):
-        value = getattr(args, name)
-        if value is not None:
-            # In a goal 0 stands for the node's parameter, a negative number for zero.
-            zero = -1 if name == "ignore_specks" else -1.0
-            has_zero = isinstance(value, float) or name == "ignore_specks"
-            setattr(goal.options, name, zero if value == 0 and has_zero else value)
-    if args.passages:
-        goal.options.passages = PASSAGES[args.passages]
-    if args.unknown_space:
-        goal.options.unknown_space = UNKNOWN_SPACE[args.unknown_space]
-    sized = have_size(args, goal, grid.info.resolution)
-    if poses and not sized:
+def make_options(args, grid, robots, are_posed):
+    options = {name: getattr(args, name) for name in OPTIONS}
+    sized = have_size(args, robots, grid.info.resolution)
+    if are_posed and not sized:
         raise InputError("%s: robots at poses need a size, or the node would take them to the "
                          "centres of their cells: `radius` there, --robot-radius, or robot_radius "
                          "of the node" % args.scen)
     # The file says where robots that have size are at each step.
-    goal.options.fill_poses = bool(args.output) and sized
-    return goal
+    options["fill_poses"] = bool(args.output) and sized
+    return options
 
 
-def have_size(args, goal, resolution):
+def have_size(args, robots, resolution):
     """Whether the node will build a planning graph: as its own rule for goal and parameters."""
     node = rospy.resolve_name(args.server).rsplit("/", 1)[0]
 
@@ -196,7 +85,7 @@ def have_size(args, goal, resolution):
         asked = getattr(args, name)
         return rospy.get_param("%s/%s" % (node, name), 0) if asked is None else asked
 
-    return (any(robot.radius > 0 for robot in goal.robots) or value("robot_radius") > 0 or
+    return (any(robot.radius > 0 for robot in robots) or value("robot_radius") > 0 or
             value("clearance") > 0 or
             (value("cell_size") > 0 and abs(value("cell_size") - resolution) > 1e-6 * resolution))
 
@@ -234,50 +123,27 @@ class ProgressLine:
             self.is_drawn = False
 
 
-def find_server(name, patience):
-    client = actionlib.ActionClient(name, PlanPathsAction)
-    # With a time of its own it would wait in ROS time, which may stand or leap; this is wall time.
-    waiting = threading.Thread(target=client.wait_for_server, daemon=True)
-    waiting.start()
-    waiting.join(patience)
-    if waiting.is_alive():
-        raise NoAnswer("no planner answers on %s within %g s; is planner_node running?" %
-                       (rospy.resolve_name(name), patience))
-    return client
+def wait_for_end(goal):
+    """The answer; the first Ctrl-C cancels the goal, the second one does not wait."""
+    try:
+        return goal.wait()
+    except KeyboardInterrupt:
+        goal.cancel()
+        return goal.wait()
 
 
-def run_goal(client, goal, progress):
-    """Sends the goal and waits for its end. Returns its terminal state and the result."""
-    handle = client.send_goal(goal, feedback_cb=lambda _, feedback: progress.show(feedback))
-    cancelled = False
-    while handle.get_comm_state() != actionlib.CommState.DONE:
-        try:
-            time.sleep(0.02)
-            # The connection of the goal topic ends with the server.
-            if client.pub_goal.get_num_connections() == 0:
-                raise NoAnswer("the planner node has gone")
-        except KeyboardInterrupt:
-            if cancelled:
-                raise
-            cancelled = True
-            handle.cancel()
-    progress.close()
-    return handle.get_terminal_state(), handle.get_result()
-
-
-def print_outcome(state, result, seconds):
-    statistics = result.statistics
-    print("%s (%s) after %.2f s" % (OUTCOME_NAMES.get(result.outcome, str(result.outcome)),
-                                    GoalStatus.to_string(state), seconds))
-    print("  " + result.message)
-    for fault in result.faults[:10]:
+def print_outcome(answer):
+    plan, statistics = answer.plan, answer.statistics
+    print("%s (%s) after %.2f s" % (answer.outcome_name, answer.state_name, answer.seconds))
+    print("  " + answer.message)
+    for fault in answer.faults[:10]:
         print("  - " + fault.message)
-    if len(result.faults) > 10:
-        print("  - and %d more" % (len(result.faults) - 10))
-    if result.plan.paths:
-        print("  robots        %d" % len(result.plan.paths))
-        print_cost("makespan    ", result.plan.makespan, statistics.makespan_lower_bound)
-        print_cost("sum of costs", result.plan.sum_of_costs, statistics.sum_of_costs_lower_bound)
+    if len(answer.faults) > 10:
+        print("  - and %d more" % (len(answer.faults) - 10))
+    if answer:
+        print("  robots        %d" % len(plan.paths))
+        print_cost("makespan    ", plan.makespan, statistics.makespan_lower_bound)
+        print_cost("sum of costs", plan.sum_of_costs, statistics.sum_of_costs_lower_bound)
         print("  planned in    %.2f s, %d %s%s" %
               (statistics.runtime, statistics.subproblems,
                "piece" if statistics.subproblems == 1 else "pieces",
@@ -289,51 +155,11 @@ def print_cost(name, cost, bound):
     print("  %s  %d%s" % (name, cost, ratio))
 
 
-def write_json(path, result, exit_code):
-    """The fields of `split_mapf plan --output` that a result carries."""
-    plan, statistics = result.plan, result.statistics
-    width, height = plan.grid.width, plan.grid.height
-    document = {
-        "status": STATUS_WORDS.get(exit_code, "error"),
-        "message": result.message,
-        "solver": statistics.solver,
-        "split": statistics.split,
-        "objective": plan.objective,
-        "agents": len(plan.paths),
-        "makespan": plan.makespan if plan.paths else None,
-        "sum_of_costs": plan.sum_of_costs if plan.paths else None,
-        "makespan_lower_bound": statistics.makespan_lower_bound,
-        "sum_of_costs_lower_bound": statistics.sum_of_costs_lower_bound,
-        "proved_lower_bound": statistics.proved_lower_bound,
-        "optimal": statistics.optimal,
-        "certified_by": statistics.certified_by,
-        "runtime_s": statistics.runtime,
-        "first_plan_s": statistics.first_plan if plan.paths else None,
-        "stages": dict(zip(statistics.stage_names, statistics.stage_seconds)),
-        "paths": [[[cell % width, height - 1 - cell // width] for cell in path.cells]
-                  for path in plan.paths],
-    }
-    if plan.longest_step > 0:
-        origin = plan.grid.origin
-        yaw = 2 * math.atan2(origin.orientation.z, origin.orientation.w)
-        document.update({
-            "grid": {"resolution": plan.grid.resolution, "width": width, "height": height,
-                     "origin": [origin.position.x, origin.position.y, yaw]},
-            "robot_radius": plan.robot_radius,
-            "clearance": plan.clearance,
-            "longest_step": plan.longest_step,
-            "step_duration": plan.step_duration,
-            "departure_steps": plan.departure_steps,
-            "arrival_steps": plan.arrival_steps,
-            "robots": [path.robot_id for path in plan.paths],
-            "radii": [path.radius for path in plan.paths],
-            "least_clearance": [path.least_clearance for path in plan.paths],
-            "poses": [[[pose.pose.position.x, pose.pose.position.y] for pose in path.path.poses]
-                      for path in plan.paths],
-        })
+def write_json(path, answer):
+    """The fields of `split_mapf plan --output` that an answer carries."""
     try:
         with open(path, "w", encoding="ascii") as file:
-            json.dump(document, file)
+            json.dump(mapf.document_of(answer), file)
             file.write("\n")
     except OSError as error:
         raise InputError("%s: %s" % (path, error.strerror)) from error
@@ -378,8 +204,8 @@ def parse_arguments(arguments):
                        ("robot-speed", "M/S")):
         options.add_argument("--" + name, type=at_least(0, float), metavar=unit)
     options.add_argument("--ignore-specks", type=at_least(0, int), metavar="CELLS")
-    options.add_argument("--passages", choices=tuple(PASSAGES))
-    options.add_argument("--unknown-space", choices=tuple(UNKNOWN_SPACE))
+    options.add_argument("--passages", choices=("true", "false"))
+    options.add_argument("--unknown-space", choices=("blocked", "free"))
     options.add_argument("--seed", type=at_least(0, int))
     options.add_argument("--threads", type=at_least(0, int))
     parser.add_argument("--server", default="split_mapf/plan_paths",
@@ -392,6 +218,8 @@ def parse_arguments(arguments):
         args = parser.parse_args(arguments)
         if args.resolution and not args.map:
             parser.error("--resolution needs --map")
+        args.passages = {"true": True, "false": False}.get(args.passages)
+        args.seed, args.threads = args.seed or None, args.threads or None  # 0: the node's
         return args
     except SystemExit as end:
         # argparse says 2 for bad usage, which stands for "unsolvable" here.
@@ -399,31 +227,30 @@ def parse_arguments(arguments):
 
 
 def run(args):
-    client = find_server(args.server, args.wait)
-    goal = make_goal(args, *read_instance(args))
-    begin = time.monotonic()
-    state, result = run_goal(client, goal, ProgressLine(args.quiet))
-    if result is None:
-        raise NoAnswer("the goal was lost")
-    # A goal that was recalled before the node had seen it has an empty result.
-    if state == GoalStatus.RECALLED:
-        result.outcome = PlanOutcome.CANCELLED
-    print_outcome(state, result, time.monotonic() - begin)
-    exit_code = EXIT_CODES.get(result.outcome, 1)
+    fleet = mapf.Fleet(args.server, args.wait, resend=0)
+    grid, rows = read_instance(args, fleet)
+    robots = make_robots(grid, rows)
+    options = make_options(args, grid, robots, isinstance(rows[0], dict))
+    progress = ProgressLine(args.quiet)
+    answer = wait_for_end(fleet.send(robots, grid if args.map else None, progress.show, **options))
+    progress.close()
+    if answer.state == GoalStatus.LOST:
+        raise mapf.NoAnswer(answer.message)
+    print_outcome(answer)
+    exit_code = EXIT_CODES.get(answer.outcome, 1)
     if args.output:
-        write_json(args.output, result, exit_code)
+        write_json(args.output, answer)
     return exit_code
 
 
 def main():
     args = parse_arguments(rospy.myargv()[1:])
-    rospy.init_node("plan_client", anonymous=True, disable_signals=True)
     try:
         return run(args)
     except InputError as error:
         print("plan_client: %s" % error, file=sys.stderr)
         return 1
-    except NoAnswer as error:
+    except mapf.NoAnswer as error:
         print("plan_client: %s" % error, file=sys.stderr)
         return 5
     except KeyboardInterrupt:

@@ -39,6 +39,7 @@ printf 'height 1\nwidth 2\nmap\nE@\n' > "$scratch/a.map"
 printf '0 a.map 2 1 0 0 0 0 0\n' > "$scratch/a.scen"
 PYTHONPATH=$scratch/install/lib/python3/dist-packages:${ROS_ROOT:+${ROS_ROOT%/share/ros}/lib/python3/dist-packages} \
   python3 -B - "$scratch" <<'END'
+import importlib.util
 import runpy
 import sys
 
@@ -46,8 +47,15 @@ scratch = sys.argv[1]
 sys.argv = [scratch + "/install/lib/split_mapf/plan_client.py",
             "--map", scratch + "/a.map", "--scen", scratch + "/a.scen"]
 client = runpy.run_path(sys.argv[0], run_name="client")
-assert client["find_command"]() == scratch + "/install/lib/split_mapf/split_mapf"
+files = importlib.import_module("split_mapf.ros.files")
+assert files.__file__.startswith(scratch), files.__file__
+assert files.find_command() == scratch + "/install/lib/split_mapf/split_mapf"
 grid, ways = client["read_instance"](client["parse_arguments"](sys.argv[1:]))
 assert (list(grid.data), ways) == ([0, 100], [[0, 0, 0, 0]]), (grid, ways)
 print("the client has read a map by the command beside it")
+if importlib.util.find_spec("split_mapf._core") and importlib.util.find_spec("numpy"):
+    import split_mapf
+    result = split_mapf.plan([[0, 0, 0], [0, 0, 0]], [(0, 0), (2, 0)], [(2, 0), (0, 0)])
+    assert result.makespan == 3, result
+    print("the installed module has planned:", result)
 END
