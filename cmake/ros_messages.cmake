@@ -22,7 +22,7 @@ file(GLOB SPLIT_MAPF_MSG CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/
 file(GLOB SPLIT_MAPF_SRV CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/srv srv/*.srv)
 add_message_files(FILES ${SPLIT_MAPF_MSG})
 add_service_files(FILES ${SPLIT_MAPF_SRV})
-add_action_files(FILES PlanPaths.action ExecutePlan.action)
+add_action_files(FILES PlanPaths.action ExecutePlan.action MoveRobots.action)
 generate_messages(DEPENDENCIES actionlib_msgs geometry_msgs nav_msgs std_msgs)
 
 catkin_package(
