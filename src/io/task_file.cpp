@@ -149,6 +149,14 @@ class LeagueReader {
   [[noreturn]] void fail(const std::string& read, const std::string& expected) const {
     lines_.fail(read, expected);
   }
+  /// A row beyond the count would be left out without a word.
+  void requireEnd(std::uint64_t count, const char* what) {
+    for (auto row = lines_.nextFilled(); row; row = lines_.nextFilled()) {
+      if (row->front() == '#') continue;
+      lines_.fail(quote(*row),
+                  "the end of the file: its first row announces " + counted(count, what));
+    }
+  }
 
  private:
   std::string nextRow(const char* what) {
@@ -204,6 +212,7 @@ std::vector<Cell> readLeagueAgents(const std::string& path, const Grid& grid,
     }
     starts.push_back(cells[0]);
   }
+  if (starts.size() == count) reader.requireEnd(count, "robot");
   return starts;
 }
 
@@ -212,6 +221,7 @@ std::vector<std::vector<Cell>> readLeagueTasks(const std::string& path, const Gr
   const std::uint64_t count = reader.readCount("the number of tasks");
   std::vector<std::vector<Cell>> tasks;
   while (tasks.size() < count) tasks.push_back(reader.readCells("the cells of a task"));
+  reader.requireEnd(count, "task");
   return tasks;
 }
 

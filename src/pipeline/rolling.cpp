@@ -30,6 +30,10 @@ constexpr std::uint32_t kCrowdedPatience = 10;
 constexpr std::uint32_t kWeightEvery = 5;
 constexpr std::uint32_t kMostWeight = 50;
 
+// Windows of maps that are up to three tenths full, and from four tenths on.
+constexpr std::uint32_t kWideWindow = 20;
+constexpr std::uint32_t kCrowdedWindow = 13;
+
 static_assert(RollingOptions::kMostWindow == kMostSteps);
 
 RollingOptions checked(const RollingOptions& options) {
@@ -73,11 +77,15 @@ class Rolling::Run {
     orderRobots(question);
     window_.tracks.resize(question.robots.size());
     base_.make(starts_, order_, window_);
-    improver_.begin(window_);
+    improver_knows_ = false;
   }
 
   std::uint64_t improve(std::uint64_t expansions, const Deadline& deadline) {
-    for (const Vertex goal : wanted_) slopes_.find(goal);
+    // All that a valid window does not need waits until one is there.
+    if (!improver_knows_) improver_.begin(window_);
+    improver_knows_ = true;
+    // Held, as a small cache would throw them away before they are of use.
+    for (const Vertex goal : wanted_) held_.push_back(slopes_.find(goal));
     wanted_.clear();
     const std::uint64_t done = improver_.improve(expansions, deadline);
     expansions_ += done;
@@ -221,6 +229,7 @@ class Rolling::Run {
   WindowBase base_;
   Improver improver_;
   FleetWindow window_;
+  bool improver_knows_ = false;                     // the window at hand
   std::vector<std::shared_ptr<const Slope>> held_;  // that the itineraries point to
   std::vector<std::shared_ptr<const Slope>> held_before_;
   std::vector<Vertex> wanted_;        // goals whose slopes the next window should have
@@ -236,6 +245,14 @@ class Rolling::Run {
   std::uint64_t now_ = 0;               // [steps]
   std::uint64_t expansions_ = 0;
 };
+
+std::uint32_t windowFor(std::size_t robots, std::size_t vertices) {
+  if (10 * robots <= 3 * vertices) return kWideWindow;
+  if (10 * robots >= 4 * vertices) return kCrowdedWindow;
+  const std::size_t beyond = 10 * robots - 3 * vertices;  // of `vertices`
+  return kWideWindow -
+         static_cast<std::uint32_t>(beyond * (kWideWindow - kCrowdedWindow) / vertices);
+}
 
 Rolling::Rolling(std::shared_ptr<const Grid> grid, const RollingOptions& options)
     : run_(std::make_unique<Run>(std::move(grid), options)) {}

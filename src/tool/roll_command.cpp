@@ -43,8 +43,8 @@ void declareOptions(CommandLine& line) {
   line.offer("warmup", "N",
              "first steps that are not counted (" + std::to_string(defaults.warmup) + ")");
   line.offer("window", "STEPS",
-             "planned ahead, 1 to " + std::to_string(RollingOptions::kMostWindow) + " (" +
-                 std::to_string(defaults.rolling.window) + ")");
+             "planned ahead, 1 to " + std::to_string(RollingOptions::kMostWindow) +
+                 " (13 to 20, by how full the map is)");
   line.offer("step-expansions", "N",
              "effort a step in expanded states: the same run at any number of threads (" +
                  std::to_string(defaults.step_expansions) + ")");
@@ -182,7 +182,7 @@ ExitCode runRoll(const Call& call) {
       "0 all steps were done, 3 time limit, 4 stopped by a signal.");
   declareOptions(line);
   if (!line.parse(call.arguments)) return ExitCode::kOk;
-  const RollOptions options = readOptions(line);
+  RollOptions options = readOptions(line);
   const bool for_league = asksForLeague(line);
   const std::string file = line.text("output", "");
   if (!file.empty() && file != "-") requireWritable(file);
@@ -190,6 +190,7 @@ ExitCode runRoll(const Call& call) {
   const Deadline deadline(limit_sec, catchStopSignals());
   const auto grid = readMap(line.text("map"));
   const RollTask task = readTask(line, *grid, options.rolling.seed);
+  if (!line.has("window")) options.rolling.window = windowFor(task.starts.size(), grid->size());
   const RollReport report = roll(grid, task, options, deadline);
   if (!file.empty()) {
     std::ostringstream text;

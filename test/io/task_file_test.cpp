@@ -88,6 +88,10 @@ TEST_F(TaskFileTest, NamesTheLineOfABadFileOfTheLeague) {
   EXPECT_EQ(errorOfTasks("1\n10\n"), "t.tasks:2: read '10', expected a cell of the map, below 10");
   EXPECT_EQ(errorOfTasks("1\n1,,2\n"), "t.tasks:2: read '', expected the cells of a task");
   EXPECT_NE(errorOfTasks("2\n1\n").find("t.tasks:3:"), std::string::npos);
+  EXPECT_EQ(errorOfTasks("1\n1\n\n# more\n2\n"),
+            "t.tasks:5: read '2', expected the end of the file: its first row announces 1 task");
+  EXPECT_EQ(errorOfAgents("1\n0\n1\n"),
+            "t.agents:3: read '1', expected the end of the file: its first row announces 1 robot");
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/rolling/progress.h"
+#include "pipeline/rolling_scenes.h"
 #include "split_mapf/core/distance_table.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/fleet_check.h"
@@ -23,60 +23,7 @@
 namespace split_mapf {
 namespace {
 
-using GridPtr = std::shared_ptr<const Grid>;
-
-RollingRobot robotAt(std::uint32_t id, Vertex at, std::vector<Vertex> goals) {
-  RollingRobot robot;
-  robot.id = id;
-  robot.prefix = {at};
-  robot.goals = std::move(goals);
-  return robot;
-}
-
-RollingAnswer answerOf(const GridPtr& grid, const RollingQuestion& question, RollingOptions options,
-                       std::uint64_t expansions = 20000) {
-  Rolling rolling(grid, options);
-  rolling.begin(question);
-  rolling.improve(expansions);
-  return rolling.answer();
-}
-
-RollingOptions windowOf(std::uint32_t steps) {
-  RollingOptions options;
-  options.window = steps;
-  return options;
-}
-
-GridPtr generatedHall(std::uint32_t side) {
-  GeneratorOptions map;
-  map.width = map.height = side;
-  map.robots = 1;
-  return generateProblem(map).grid;
-}
-
-/// Robots anywhere, whose next goals are drawn.
-RollTask randomGoals(const Grid& grid, std::uint32_t robots, std::uint64_t seed) {
-  RollTask task;
-  task.starts = drawStarts(grid, robots, seed);
-  task.random = true;
-  return task;
-}
-
-/// Looks at every entry of every path, with nothing but the grid's cells.
-void expectValid(const Grid& grid, const std::vector<Path>& paths, std::uint32_t steps) {
-  for (std::uint32_t t = 0; t <= steps; ++t) {
-    std::set<Vertex> taken;
-    std::set<std::pair<Vertex, Vertex>> moves;
-    for (const Path& path : paths) {
-      ASSERT_EQ(path.size(), steps + std::size_t{1});
-      ASSERT_TRUE(taken.insert(path[t]).second) << "two robots in one cell at step " << t;
-      if (t == 0 || path[t] == path[t - 1]) continue;
-      ASSERT_TRUE(grid.isStep(grid.cellOf(path[t - 1]), grid.cellOf(path[t])));
-      ASSERT_EQ(moves.count({path[t], path[t - 1]}), 0U) << "a swap in step " << t;
-      moves.insert({path[t - 1], path[t]});
-    }
-  }
-}
+using namespace test;
 
 /// The least number of steps lost by two robots with one goal each, over all joint moves.
 std::uint32_t leastLoss(const Grid& grid, const RollingQuestion& question, std::uint32_t steps) {
@@ -315,60 +262,6 @@ TEST(Rolling, TellsWhoIsCutOffAndLeadsTheOthersAround) {
   question.blocked.push_back(grid->vertexAt({2, 2}));
   answer = answerOf(grid, question, windowOf(10));
   EXPECT_EQ(answer.cut_off, std::vector<std::uint32_t>{0});
-}
-
-TEST(Rolling, LeadsRobotsOnThatOnlyAJointPlanCanPart) {
-  // Two that meet in a lane whose only pocket lies behind one of them, further than the window.
-  const GridPtr grid = test::gridFromAscii({"..................", "#.################"});
-  RollTask task;
-  task.starts = {grid->vertexAt({0, 0}), grid->vertexAt({17, 0})};
-  task.goals = {{task.starts[1], task.starts[0]}, {task.starts[0], task.starts[1]}};
-  RollOptions options;
-  options.steps = 400;
-  options.warmup = 0;
-  options.rolling.window = 5;
-  options.step_expansions = 300;
-  const RollReport report = roll(grid, task, options);
-  EXPECT_GT(report.escorts, 0U);
-  EXPECT_EQ(report.reached[0].size(), 2U);
-  EXPECT_EQ(report.reached[1].size(), 2U);
-}
-
-TEST(Rolling, StarvesNobodyInLanesWithRooms) {
-  const GridPtr grid = test::gridFromAscii({"...........#...........", "...........#...........",
-                                            "...##########.##...####", "#.############.###.####",
-                                            ".......................", "#.######.##########.###",
-                                            "...####...########...##", "...####...########...##"});
-  const RollTask task = randomGoals(*grid, 12, 2);
-  RollOptions options;
-  options.steps = 1500;
-  options.warmup = 100;
-  options.step_expansions = 3000;
-  const RollReport report = roll(grid, task, options);
-  EXPECT_GT(report.goals_reached, 200U);
-  EXPECT_LT(report.longest_wait, 10 * report.service_mean);
-}
-
-TEST(Rolling, CountsDistancesAnewWhenWallsChange) {
-  const GridPtr grid = test::gridFromAscii({".....", ".###.", "....."});
-  const rolling::MoveGraph graph(*grid);
-  rolling::SlopeCache slopes(graph, 1 << 20);
-  rolling::Progress progress;
-  const Vertex goal = grid->vertexAt({4, 0});
-  const auto note = [&](Cell at, std::uint64_t now) {
-    return progress.note(graph, 1, grid->vertexAt(at), goal, *slopes.find(goal), now);
-  };
-  EXPECT_EQ(note({1, 0}, 1), 3U);
-  EXPECT_EQ(note({2, 0}, 2), 2U);
-  std::vector<bool> closed(graph.size(), false);
-  closed[grid->vertexAt({3, 0})] = true;
-  ASSERT_TRUE(slopes.close(closed));
-  progress.measureAnew();
-  EXPECT_EQ(note({1, 0}, 3), 9U);
-  EXPECT_EQ(progress.best(1), 9U);
-  EXPECT_EQ(progress.stuckFor(1, 3), 1U);
-  EXPECT_EQ(note({0, 0}, 4), 8U);
-  EXPECT_EQ(progress.stuckFor(1, 4), 0U);
 }
 
 void expectRefusal(const GridPtr& grid, const RollingQuestion& question, const std::string& part) {

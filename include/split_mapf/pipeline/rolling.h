@@ -13,13 +13,18 @@ namespace split_mapf {
 
 /// What a rolling planner is told once.
 struct RollingOptions {
-  std::uint32_t window = 20;  ///< [steps] planned ahead, 1 .. kMostWindow
+  std::uint32_t window = 20;  ///< [steps] planned ahead, 1 .. kMostWindow; see windowFor()
   std::uint32_t threads = 1;  ///< at least 1; what is planned does not depend on it
   std::uint64_t seed = 0;     ///< all randomness
   std::size_t cache_bytes = std::size_t{1} << 29U;  ///< of distances by goal; see Rolling
   static constexpr std::uint32_t kMostWindow = 31;
   static constexpr std::uint32_t kMostThreads = 8;  ///< that are used: as many as try at a time
 };
+
+/// The window that pays [steps]: where a map is crowded a shorter one, as robots there come to
+/// other places than they were planned to anyway, and more ways are tried in the same time.
+/// @param vertices  of the map. Cost: O(1). Thread-safe.
+std::uint32_t windowFor(std::size_t robots, std::size_t vertices);
 
 /// One robot of a fleet that never stops.
 struct RollingRobot {

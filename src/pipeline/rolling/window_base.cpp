@@ -34,7 +34,8 @@ bool WindowBase::makeSteps(const std::vector<WindowStart>& starts,
     const Path& known = *starts[robot].known;
     on_known_[robot] = !known.empty() && known.front() == at;
   }
-  for (std::uint32_t t = 0; t < window.steps; ++t) {
+  const std::uint32_t kept = keepKnownAtOnce(starts, window);
+  for (std::uint32_t t = kept; t < window.steps; ++t) {
     for (std::uint32_t robot = 0; robot < robots; ++robot) wish(starts, robot, t, window);
     if (keepKnown(t, window)) continue;
     if (!maker_.make(wishes_, order, table_, moves_)) return false;
@@ -44,6 +45,60 @@ bool WindowBase::makeSteps(const std::vector<WindowStart>& starts,
     }
   }
   return true;
+}
+
+std::uint32_t WindowBase::keepKnownAtOnce(const std::vector<WindowStart>& starts,
+                                          FleetWindow& window) {
+  if (stop_until_ > 0) return 0;
+  std::size_t steps = window.steps;
+  for (const WindowStart& start : starts) {
+    if (start.known->size() < start.prefix->size()) return 0;
+    steps = std::min(steps, start.known->size() - 1);
+  }
+  const auto last = static_cast<std::uint32_t>(steps);
+  std::uint32_t robot = 0;
+  while (robot < window.robots() && keepWay(starts[robot], robot, last, window)) ++robot;
+  if (robot < window.robots()) {
+    for (std::uint32_t before = 0; before < robot; ++before) {
+      table_.flip(window.tracks[before], 0, last);
+    }
+    return 0;
+  }
+  for (robot = 0; robot < window.robots(); ++robot) {
+    const Itinerary& own = window.itineraries[robot];
+    for (std::uint32_t t = 1; t <= last && !own.isIdle(reached_[robot]); ++t) {
+      reached_[robot] = own.reachedAt(window.tracks[robot].at[t], reached_[robot]);
+    }
+  }
+  return last;
+}
+
+bool WindowBase::keepWay(const WindowStart& start, std::uint32_t robot, std::uint32_t last,
+                         FleetWindow& window) {
+  const Path& known = *start.known;
+  if (!std::equal(start.prefix->begin(), start.prefix->end(), known.begin())) return false;
+  const auto free = static_cast<std::uint32_t>(start.prefix->size()) - 1;
+  const bool stays = window.itineraries[robot].free_from >= window.steps;
+  Track& track = window.tracks[robot];
+  for (std::uint32_t t = 0; t < last; ++t) {
+    const Vertex at = known[t];
+    const Slot slot = graph_.slotOf(at, known[t + 1]);
+    if (slot == MoveGraph::kNoSlot || (stays && t >= free && slot != kWait)) return false;
+    // Who is bound goes where it has to, walls or not.
+    const bool open = slot == kWait || t < free || (table_[at].open >> slot & 1U) != 0;
+    if (!open || isTaken(at, slot, t)) return false;
+    track.at[t + 1] = known[t + 1];
+    track.slot[t] = slot;
+  }
+  table_.flip(track, 0, last);
+  return true;
+}
+
+bool WindowBase::isTaken(Vertex at, Slot slot, std::uint32_t t) const {
+  if (slot == kWait) return (table_[at].taken >> (t + 1) & 1U) != 0;
+  const MoveGraph::Node& node = graph_[at];
+  const WindowTable::Row& row = table_[node.next[slot]];
+  return ((row.taken >> (t + 1) | row.leaving[node.back[slot]] >> t) & 1U) != 0;
 }
 
 void WindowBase::wish(const std::vector<WindowStart>& starts, std::uint32_t robot, std::uint32_t t,
@@ -82,9 +137,7 @@ bool WindowBase::keepKnown(std::uint32_t t, FleetWindow& window) {
     Track& track = window.tracks[robot];
     const Slot slot = wishes_[robot].wanted;
     const Vertex to = slot == kWait ? track.at[t] : graph_[track.at[t]].next[slot];
-    const bool free =
-        (table_[to].taken >> (t + 1) & 1U) == 0 &&
-        (slot == kWait || (table_[to].leaving[graph_[track.at[t]].back[slot]] >> t & 1U) == 0);
+    const bool free = !isTaken(track.at[t], slot, t);
     track.slot[t] = slot;
     track.at[t + 1] = to;
     if (free) {

@@ -31,6 +31,12 @@ class WindowBase {
  private:
   bool makeSteps(const std::vector<WindowStart>& starts, const std::vector<std::uint32_t>& order,
                  FleetWindow& window);
+  /// Keeps what is known of all robots if nothing of it is in the way of anything, robot by robot:
+  /// what happens in nearly every step. @return the steps that are made, 0 if it does not hold.
+  std::uint32_t keepKnownAtOnce(const std::vector<WindowStart>& starts, FleetWindow& window);
+  bool keepWay(const WindowStart& start, std::uint32_t robot, std::uint32_t last,
+               FleetWindow& window);
+  bool isTaken(Vertex at, Slot slot, std::uint32_t t) const;
   bool keepKnown(std::uint32_t t, FleetWindow& window);
   void wish(const std::vector<WindowStart>& starts, std::uint32_t robot, std::uint32_t t,
             const FleetWindow& window);

@@ -1,0 +1,112 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "pipeline/rolling/progress.h"
+#include "pipeline/rolling_scenes.h"
+#include "split_mapf/core/fleet_check.h"
+#include "support/ascii_grid.h"
+
+namespace split_mapf {
+namespace {
+
+using namespace test;
+
+TEST(Rolling, LeadsRobotsOnThatOnlyAJointPlanCanPart) {
+  // Two that meet in a lane whose only pocket lies behind one of them, further than the window.
+  const GridPtr grid = gridFromAscii({"..................", "#.################"});
+  RollTask task;
+  task.starts = {grid->vertexAt({0, 0}), grid->vertexAt({17, 0})};
+  task.goals = {{task.starts[1], task.starts[0]}, {task.starts[0], task.starts[1]}};
+  RollOptions options;
+  options.steps = 400;
+  options.warmup = 0;
+  options.rolling.window = 5;
+  options.step_expansions = 300;
+  const RollReport report = roll(grid, task, options);
+  EXPECT_GT(report.escorts, 0U);
+  EXPECT_EQ(report.reached[0].size(), 2U);
+  EXPECT_EQ(report.reached[1].size(), 2U);
+}
+
+TEST(Rolling, StarvesNobodyInLanesWithRooms) {
+  const GridPtr grid = gridFromAscii({"...........#...........", "...........#...........",
+                                      "...##########.##...####", "#.############.###.####",
+                                      ".......................", "#.######.##########.###",
+                                      "...####...########...##", "...####...########...##"});
+  const RollTask task = randomGoals(*grid, 12, 2);
+  RollOptions options;
+  options.steps = 1500;
+  options.warmup = 100;
+  options.step_expansions = 3000;
+  const RollReport report = roll(grid, task, options);
+  EXPECT_GT(report.goals_reached, 200U);
+  EXPECT_LT(report.longest_wait, 10 * report.service_mean);
+}
+
+TEST(Rolling, CountsDistancesAnewWhenWallsChange) {
+  const GridPtr grid = gridFromAscii({".....", ".###.", "....."});
+  const rolling::MoveGraph graph(*grid);
+  rolling::SlopeCache slopes(graph, 1 << 20);
+  rolling::Progress progress;
+  const Vertex goal = grid->vertexAt({4, 0});
+  const auto note = [&](Cell at, std::uint64_t now) {
+    return progress.note(graph, 1, grid->vertexAt(at), goal, *slopes.find(goal), now);
+  };
+  EXPECT_EQ(note({1, 0}, 1), 3U);
+  EXPECT_EQ(note({2, 0}, 2), 2U);
+  std::vector<bool> closed(graph.size(), false);
+  closed[grid->vertexAt({3, 0})] = true;
+  ASSERT_TRUE(slopes.close(closed));
+  progress.measureAnew();
+  EXPECT_EQ(note({1, 0}, 3), 9U);
+  EXPECT_EQ(progress.best(1), 9U);
+  EXPECT_EQ(progress.stuckFor(1, 3), 1U);
+  EXPECT_EQ(note({0, 0}, 4), 8U);
+  EXPECT_EQ(progress.stuckFor(1, 4), 0U);
+}
+
+/// Binds robots to as much of what they were told as they may stop behind.
+void bindRobots(const GridPtr& grid, std::size_t steps, RollingQuestion& question) {
+  for (; steps > 0; --steps) {
+    std::vector<Path> prefixes;
+    for (RollingRobot& robot : question.robots) {
+      robot.prefix.assign(robot.known.begin(),
+                          robot.known.begin() + static_cast<std::ptrdiff_t>(steps));
+      prefixes.push_back(robot.prefix);
+    }
+    if (!FleetChecker(grid).violation(prefixes)) return;
+  }
+}
+
+TEST(RollingEscorts, LeadOnWhoIsBoundForManySteps) {
+  const GridPtr grid = gridFromAscii({"..................", "#.################"});
+  RollingQuestion question;
+  const Vertex left = grid->vertexAt({0, 0});
+  const Vertex right = grid->vertexAt({17, 0});
+  question.robots = {robotAt(0, left, {right}), robotAt(1, right, {left})};
+  Rolling rolling(grid, windowOf(5));
+  std::uint32_t led = 0;
+  for (int step = 0; step < 300; ++step) {
+    rolling.begin(question);
+    rolling.improve(200);
+    const RollingAnswer answer = rolling.answer();
+    expectValid(*grid, answer.paths, 5);
+    led += answer.escorts;
+    for (std::size_t i = 0; i < 2; ++i) {
+      RollingRobot& robot = question.robots[i];
+      ASSERT_TRUE(std::equal(robot.prefix.begin(), robot.prefix.end(), answer.paths[i].begin()));
+      robot.known.assign(answer.paths[i].begin() + 1, answer.paths[i].end());
+      if (!robot.goals.empty() && robot.goals[0] == robot.known[0]) robot.goals.clear();
+    }
+    bindRobots(grid, 4, question);
+  }
+  EXPECT_GT(led, 0U);
+  EXPECT_TRUE(question.robots[0].goals.empty());
+  EXPECT_TRUE(question.robots[1].goals.empty());
+}
+
+}  // namespace
+}  // namespace split_mapf

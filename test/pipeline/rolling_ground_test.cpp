@@ -1,0 +1,97 @@
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "pipeline/rolling/slopes.h"
+#include "pipeline/rolling_scenes.h"
+#include "split_mapf/roadmap/roadmap.h"
+#include "support/ascii_grid.h"
+#include "support/disc_checker.h"
+#include "support/drawn_rooms.h"
+
+namespace split_mapf {
+namespace {
+
+using namespace test;
+
+TEST(RollingGround, KeepsRobotsOfThirtyCentimetresApartOnTheirPlanningGraph) {
+  RoadmapOptions discs;
+  discs.robot_radius_m = 0.3;
+  const DrawnRooms drawn = drawRooms(3, 14, 3 * leastSpacingCells(discs, 0.05), 0.05);
+  const auto roadmap = buildRoadmap(drawn.raster, discs);
+  ASSERT_TRUE(roadmap.has_value());
+  const GridPtr grid = gridOf(*roadmap);
+  RollOptions options;
+  options.steps = 300;
+  options.warmup = 20;
+  options.step_expansions = 3000;
+  const RollTask task = randomGoals(*grid, grid->size() / 6, 4);
+  ASSERT_GT(task.starts.size(), 8U);
+  const RollReport report = roll(grid, task, options);
+  EXPECT_GT(report.goals_reached, 2 * task.starts.size());
+  EXPECT_LT(report.longest_wait, 10 * report.service_mean);
+  DiscChecker checker(discs.robot_radius_m);
+  for (std::size_t step = 0; step <= options.steps; ++step) {
+    std::vector<DiscChecker::Point> centres;
+    for (const Path& path : report.paths) {
+      const MapPoint place = placeOf(*roadmap, path[step]);
+      centres.push_back({place.x, place.y});
+    }
+    checker.next(centres);
+  }
+  EXPECT_TRUE(checker.isClear()) << checker.closest();
+}
+
+TEST(RollingGround, ForgetsTheDistancesThatWereAskedForLongest) {
+  const GridPtr grid = gridFromAscii({"..........", ".........."});
+  const rolling::MoveGraph graph(*grid);
+  rolling::SlopeCache slopes(graph, 8 * std::size_t{graph.size()});
+  const auto held = slopes.find(0);
+  for (Vertex goal = 1; goal < 20; ++goal) slopes.find(goal);
+  EXPECT_LE(slopes.bytes(), 8 * std::size_t{graph.size()});
+  EXPECT_TRUE(slopes.has(0)) << "it is in use";
+  EXPECT_TRUE(slopes.has(19));
+  EXPECT_FALSE(slopes.has(1));
+  EXPECT_EQ(slopes.find(1)->distance(graph, 5, 100), 4U);
+}
+
+TEST(RollingGround, LooksAtNextGoalsWhateverTheCacheHolds) {
+  const GridPtr grid = gridFromAscii({"........", "........"});
+  RollingOptions options = windowOf(10);
+  options.cache_bytes = 0;
+  Rolling rolling(grid, options);
+  RollingQuestion question;
+  question.robots = {robotAt(0, 0, {2, 6}), robotAt(1, 8, {10, 14})};
+  rolling.begin(question);
+  rolling.improve(1000);
+  EXPECT_EQ(rolling.answer().reached, (std::vector<std::uint32_t>{1, 1}));
+  rolling.begin(question, 0);
+  rolling.improve(1000);
+  EXPECT_EQ(rolling.answer().reached, (std::vector<std::uint32_t>{2, 2}));
+}
+
+TEST(RollingGround, MoreThreadsThanTriesChangeNothing) {
+  const GridPtr grid = generatedHall(16);
+  RollOptions options;
+  options.steps = 30;
+  options.warmup = 5;
+  options.step_expansions = 5000;
+  const RollTask task = randomGoals(*grid, 60, 2);
+  const RollReport one = roll(grid, task, options);
+  options.rolling.threads = 24;
+  EXPECT_EQ(one.paths, roll(grid, task, options).paths);
+}
+
+TEST(RollingGround, ACrowdedMapHasAShorterWindow) {
+  EXPECT_EQ(windowFor(0, 0), windowFor(1, 1000));
+  EXPECT_EQ(windowFor(300, 1000), windowFor(1, 1000));
+  EXPECT_LT(windowFor(450, 1000), windowFor(300, 1000));
+  for (std::size_t robots = 1; robots <= 1000; ++robots) {
+    EXPECT_LE(windowFor(robots, 1000), windowFor(robots - 1, 1000));
+    EXPECT_GE(windowFor(robots, 1000), 10U);
+  }
+}
+
+}  // namespace
+}  // namespace split_mapf
