@@ -33,6 +33,7 @@ foreach(name replay recording lifecycle sim_time launch big_maps termination)
   add_rostest(test/ros/${name}.test DEPENDENCIES planner_node replay_node split_mapf)
 endforeach()
 add_rostest(test/ros/fleet.test DEPENDENCIES executor_node fake_robots_node split_mapf)
+add_rostest(test/ros/disc_fleet.test DEPENDENCIES executor_node fake_robots_node planner_node)
 find_program(SPLIT_MAPF_PYTHON python3 HINTS /usr/bin)
 add_test(NAME check_distances COMMAND ${CATKIN_ENV} ${SPLIT_MAPF_PYTHON} -B
   ${CMAKE_CURRENT_SOURCE_DIR}/test/ros/check_distances_test.py)

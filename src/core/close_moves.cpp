@@ -76,8 +76,7 @@ class EdgeSquares {
 /// All pairs of close moves of a graph.
 class PairSearch {
  public:
-  PairSearch(const CloseMoves& moves, double distance_m)
-      : moves_(moves), distance_m_(distance_m) {}
+  PairSearch(const CloseMoves& moves, double distance_m) : moves_(moves), distance_m_(distance_m) {}
 
   std::vector<CloseMoves::Pair> run() {
     std::vector<MoveId> edges;
@@ -196,6 +195,22 @@ void CloseMoves::take(std::vector<Pair> pairs) {
     close_.push_back({pair.before, pair.release});
   }
   for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+}
+
+std::vector<Vertex> CloseMoves::nearTo(PlanePoint a, PlanePoint b, double distance_m) const {
+  std::vector<Vertex> ends;
+  const PlanePoint middle = between(a, b, 0.5);
+  const double reach = std::hypot(b.x - a.x, b.y - a.y) / 2 + distance_m;
+  for (MoveId move = 0; move < moves(); ++move) {
+    if (from(move) > to(move)) continue;
+    const PlanePoint p = place(from(move));
+    const PlanePoint q = place(to(move));
+    if (distanceTo(middle, p, q) >= reach) continue;
+    if (releaseFraction(a, b, p, q, distance_m) <= 0) continue;
+    ends.push_back(from(move));
+    ends.push_back(to(move));
+  }
+  return ends;
 }
 
 MoveId CloseMoves::moveOf(Vertex from, Vertex to) const {

@@ -104,6 +104,7 @@ void FleetExecution::advance(double now) {
   }
   watch(now);
   grow(now);
+  was_advanced_ = true;
 }
 
 void FleetExecution::watch(double now) {
@@ -125,9 +126,9 @@ void FleetExecution::watch(double now) {
 void FleetExecution::watchBlocked(std::uint32_t robot, double now) {
   Robot& record = robots_[robot];
   const bool for_long = now - record.status_since > options_.progress_timeout_sec;
-  if (isUnderWay(robot) || (record.tried_elsewhere && for_long)) {
-    return dropOut(robot, Absence::kBlocked);
-  }
+  const bool has_tried = record.tried_elsewhere || !options_.plans_anew;
+  if (isUnderWay(robot) || (has_tried && for_long)) return dropOut(robot, Absence::kBlocked);
+  if (!options_.plans_anew) return;
   if (graph_.isDone(robot) || record.tried_elsewhere) return;
   record.tried_elsewhere = true;
   const Vertex ahead = graph_.precedence()[graph_.at(robot) + 1].vertex;

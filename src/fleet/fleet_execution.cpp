@@ -268,6 +268,21 @@ bool FleetExecution::anyMayMove() const {
   return false;
 }
 
+bool FleetExecution::isAnyoneHeld() const {
+  if (all_paused_) return true;
+  return std::any_of(robots_.begin(), robots_.end(), [](const Robot& robot) {
+    return robot.paused && robot.absence == Absence::kPaused;
+  });
+}
+
+std::vector<Vertex> FleetExecution::ground(std::uint32_t robot) const {
+  std::vector<Vertex> vertices;
+  for (VisitId v = graph_.at(robot); v <= promised_[robot]; ++v) {
+    vertices.push_back(graph_.precedence()[v].vertex);
+  }
+  return vertices;
+}
+
 std::string FleetExecution::trouble() const {
   if (!trouble_.empty() || stalls_ < kTriesForAPlan) return trouble_;
   return "robots would have to rotate, all beginning at once; no other plan was found";
@@ -276,6 +291,7 @@ std::string FleetExecution::trouble() const {
 bool FleetExecution::isFinished() const {
   if (restoring_ || asked_) return false;
   if (cancelled_) return !anyMayMove();
+  if (!options_.plans_anew) return was_advanced_ && !anyMayMove() && !isAnyoneHeld();
   if (robots_.empty() && joiners_.empty()) return true;
   if (std::max(failed_, stalls_) >= kTriesForAPlan && !anyMayMove()) return true;
   if (incident_ || !joiners_.empty()) return false;

@@ -20,6 +20,7 @@ constexpr double kBetweenPlansSec = 0.2;
 
 std::optional<FleetQuestion> FleetExecution::ask(double now) {
   if (asked_ || restoring_ || all_paused_ || cancelled_) return std::nullopt;
+  if (!options_.plans_anew) return std::nullopt;
   bool goes_on = false;
   for (std::uint32_t robot = 0; robot < robots_.size(); ++robot) {
     goes_on = goes_on || (takesPart(robot) && !graph_.isDone(robot));

@@ -237,7 +237,7 @@ TEST(FleetRuns, HaveNoCollisionsAndNoDeadlocks) {
 TEST(FleetRuns, HaveNoCollisionsAndNoDeadlocksOnPlanningGraphs) {
   Count count;
   forSeeds(
-      60, [&](Drive& run) { everythingGoesWrong(run, count); }, 100, planningSceneOf);
+      30, [&](Drive& run) { everythingGoesWrong(run, count); }, 200, planningSceneOf);
   show(count);
   EXPECT_GT(count.anew, 10U);
 }

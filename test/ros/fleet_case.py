@@ -3,10 +3,12 @@
 import json
 import os
 import subprocess
+import sys
 import tempfile
 import unittest
 
 import actionlib
+import rosbag
 import roslib.packages
 import rospy
 from nav_msgs.msg import OccupancyGrid
@@ -56,6 +58,8 @@ class FleetCase(unittest.TestCase):
     ROBOTS = 24
     SIZE = (28, 16)
     STEP = 0.15
+    # Twice the radius of the largest robot that fits into the cells.
+    APART = 0.70
 
     @classmethod
     def setUpClass(cls):
@@ -101,3 +105,22 @@ class FleetCase(unittest.TestCase):
 
     def count(self, state):
         return sum(robot.state == state for robot in self.latest())
+
+    def start_robots(self, failures=(), speed=None):
+        rospy.set_param("/fake_robots/failures", list(failures))
+        robots = start_program("fake_robots_node", "routes:=fleet/routes",
+                               "_speed:=%g" % (speed or 1 / self.STEP), "_rate:=20",
+                               "_delay_probability:=0.01", "_min_delay:=3", "_max_delay:=8",
+                               "_delay_step:=%g" % self.STEP)
+        self.addCleanup(robots.end)
+        return robots
+
+    def assert_kept_apart(self):
+        path = os.path.join(self.directory.name, self.id().rsplit(".", 1)[-1] + ".bag")
+        with rosbag.Bag(path, "w") as bag:
+            for message in self.progress.messages:
+                bag.write("/progress", message, message.pose.header.stamp)
+        script = roslib.packages.find_node("split_mapf", "check_distances.py")[0]
+        check = subprocess.run([sys.executable, script, path, "--distance", str(self.APART)],
+                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+        self.assertEqual(check.returncode, 0, check.stdout)

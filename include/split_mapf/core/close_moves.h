@@ -65,6 +65,9 @@ class CloseMoves {
     return {close_.data() + first_[move], close_.data() + first_[move + 1]};
   }
   PlanePoint place(Vertex v) const { return places_[v]; }
+  /// The ends of all edges that come nearer than a distance [m] to the straight way between two
+  /// places, one more than once. Cost: O(edges).
+  std::vector<Vertex> nearTo(PlanePoint a, PlanePoint b, double distance_m) const;
 
  private:
   explicit CloseMoves(const Graph& graph, std::vector<PlanePoint> places);

@@ -30,6 +30,9 @@ struct FleetOptions {
   /// Of a planning graph: then each move has releases of its own, and `release` means nothing; with
   /// it no joint rings. Null: a grid.
   std::shared_ptr<const CloseMoves> moves;
+  /// Whether another plan is made where this one cannot be carried out. Without, its order stays:
+  /// whoever cannot go on stands, and it is finished when nobody can.
+  bool plans_anew = true;
 };
 /// @throws OptionError naming what is out of range.
 void requireValid(const FleetOptions& options);
@@ -135,6 +138,9 @@ class FleetExecution {
   Vertex vertexOf(std::uint32_t robot) const {
     return graph_.precedence()[graph_.at(robot)].vertex;
   }
+  /// The vertices from the one that a robot came to last to the last one promised to it: between
+  /// them it is. Cost: O(visits promised).
+  std::vector<Vertex> ground(std::uint32_t robot) const;
   /// Whether nothing will happen any more: all have arrived, but those that take no part; or no
   /// plan could be made again and again, see trouble().
   bool isFinished() const;
@@ -203,6 +209,7 @@ class FleetExecution {
     return promised_[robot] > graph_.at(robot) || isUnderWay(robot);
   }
   bool anyMayMove() const;
+  bool isAnyoneHeld() const;
   /// Whether somebody asked that it be promised nothing more.
   bool isHeld(std::uint32_t robot) const {
     return all_paused_ || cancelled_ || robots_[robot].paused;
@@ -260,6 +267,7 @@ class FleetExecution {
   std::size_t question_joiners_ = 0;
   std::uint64_t question_openings_ = 0;
   std::uint64_t openings_ = 0;  ///< times that cells may have been opened
+  bool was_advanced_ = false;   ///< so that promises were given
   bool restoring_ = false;
   std::uint32_t restored_ahead_ = 0;
   bool all_paused_ = false;

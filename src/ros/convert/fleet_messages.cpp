@@ -7,20 +7,32 @@
 #include "split_mapf/ros/outcome.h"
 
 namespace split_mapf {
+
+geometry_msgs::Point pointOf(const FleetExecution& fleet, Vertex vertex, const PlanningGrid& grid) {
+  const auto& moves = fleet.graph().closeMoves();
+  geometry_msgs::Point point = grid.geometry.centreOf(grid.grid->cellOf(vertex));
+  if (!moves) return point;
+  const PlanePoint place = moves->place(vertex);
+  const MapPoint at = toFrame(frameOf(grid.geometry), {place.x, place.y});
+  point.x = at.x;
+  point.y = at.y;
+  return point;
+}
+
 namespace {
 
 /// Why a robot does not come to its goal; empty: it does.
 std::string reasonOf(const FleetExecution& fleet, std::uint32_t robot,
                      const FleetRobotStatus& status, const PlanningGrid& grid) {
   const std::string who = "robot " + quote(fleet.id(robot));
-  const Cell here = grid.grid->cellOf(fleet.vertexOf(robot));
+  const Cell here = grid.geometry.cellAt(pointOf(fleet, fleet.vertexOf(robot), grid));
   if (status.absence != Absence::kNone) {
     return who + " " + toString(status.absence) + ", last in cell " +
            grid.geometry.describeWithMetres(here);
   }
   if (status.fault == GoalFault::kNone) return "";
-  const std::string goal =
-      "its goal " + grid.geometry.describeWithMetres(grid.grid->cellOf(fleet.goal(robot)));
+  const Cell wanted = grid.geometry.cellAt(pointOf(fleet, fleet.goal(robot), grid));
+  const std::string goal = "its goal " + grid.geometry.describeWithMetres(wanted);
   return who + (status.fault == GoalFault::kBlocked ? ": " + goal + " is blocked"
                                                     : ": there is no way to " + goal);
 }
@@ -69,11 +81,10 @@ RobotRoute routeMessage(const FleetExecution& fleet, std::uint32_t robot, std::u
   double yaw = grid.geometry.yaw();
   for (const RouteStep& step : fleet.route(robot, horizon)) {
     RouteVisit visit;
-    const Cell cell = grid.grid->cellOf(step.vertex);
     visit.sequence = step.sequence;
-    visit.cell = grid.geometry.indexOf(cell);
+    visit.pose.position = pointOf(fleet, step.vertex, grid);
+    visit.cell = grid.geometry.indexOf(grid.geometry.cellAt(visit.pose.position));
     visit.released = step.released;
-    visit.pose.position = grid.geometry.centreOf(cell);
     if (!message.visits.empty()) {
       const geometry_msgs::Point& from = message.visits.back().pose.position;
       yaw = std::atan2(visit.pose.position.y - from.y, visit.pose.position.x - from.x);

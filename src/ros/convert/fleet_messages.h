@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include <geometry_msgs/Point.h>
 #include <split_mapf/FleetState.h>
 #include <split_mapf/MultiRobotPlan.h>
 #include <split_mapf/RobotFault.h>
@@ -16,6 +17,9 @@ namespace split_mapf {
 
 /// The paths of a plan as vertices. @pre findViolations() finds none.
 Plan planOf(const MultiRobotPlan& message, const PlanningGrid& grid);
+
+/// Where a vertex of a fleet's ground lies, in the map's frame.
+geometry_msgs::Point pointOf(const FleetExecution& fleet, Vertex vertex, const PlanningGrid& grid);
 
 /// A robot's route from where it is on, `horizon` visits beyond those released.
 RobotRoute routeMessage(const FleetExecution& fleet, std::uint32_t robot, std::uint32_t horizon,

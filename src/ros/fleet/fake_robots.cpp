@@ -111,9 +111,12 @@ void FakeRobots::takePlan(const MultiRobotPlan& plan) {
     const MapGeometry geometry(plan.grid, plan.header.frame_id);
     frame_ = geometry.frame();
     cell_m_ = plan.grid.resolution;
+    if (isOnRoadmap(plan)) disc_m_ = 2 * plan.robot_radius;
     for (const RobotPath& path : plan.paths) {
       if (path.cells.empty() || index_.count(path.robot_id) > 0) continue;
-      const geometry_msgs::Point at = geometry.centreOf(geometry.cellOf(path.cells.front()));
+      const geometry_msgs::Point at = isOnRoadmap(plan)
+                                          ? path.start.position
+                                          : geometry.centreOf(geometry.cellOf(path.cells.front()));
       Body body;
       body.id = path.robot_id;
       body.frame = rosNameOf(path.robot_id) + "/base_link";
@@ -231,7 +234,8 @@ visualization_msgs::Marker FakeRobots::markerOf(const char* space, int type, ros
 /// Discs in their colours, those that failed in black, and the ways ahead: what is released opaque.
 void FakeRobots::publishMarkers(ros::Time now) {
   using visualization_msgs::Marker;
-  const double size = options_.diameter_m > 0 ? options_.diameter_m : 0.8 * cell_m_;
+  const double known = disc_m_ > 0 ? disc_m_ : 0.8 * cell_m_;
+  const double size = options_.diameter_m > 0 ? options_.diameter_m : known;
   Marker discs = markerOf("robots", Marker::SPHERE_LIST, now);
   discs.scale.x = discs.scale.y = size;
   discs.scale.z = size / 2;

@@ -30,7 +30,7 @@ struct FakeRobotsOptions {
   DelayModel delays;
   double delay_step_sec = 1;  ///< that the delay model calls a step
   double rate_hz = 10;        ///< of progress, tf and markers
-  double diameter_m = 0;      ///< of the discs that are drawn; 0: four fifths of a cell
+  double diameter_m = 0;  ///< of the discs that are drawn; 0: the plan's, or four fifths of a cell
   bool publish_tf = true;
   /// Robots that fail, and after how many seconds on their first route.
   std::map<std::string, double> failures;
@@ -70,6 +70,7 @@ class FakeRobots {
   std::mutex mutex_;
   std::string frame_ = "map";
   double cell_m_ = 1;
+  double disc_m_ = 0;  // of robots that have size
   std::vector<Body> bodies_;
   std::map<std::string, std::size_t> index_;
   std::unique_ptr<Delays> delays_;

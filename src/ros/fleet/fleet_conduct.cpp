@@ -43,11 +43,7 @@ void FleetServer::takeProgress(const RobotProgress& message) {
   if (!message.pose.header.frame_id.empty()) known.pose = message.pose;
   if (place) known.place = place;
   if (!fleet_) return;
-  if (index_.empty()) {
-    for (std::uint32_t robot = 0; robot < fleet_->robots(); ++robot) {
-      index_[fleet_->id(robot)] = robot;
-    }
-  }
+  if (index_.empty()) reindex();
   const auto robot = index_.find(message.robot_id);
   const auto status = static_cast<DriveStatus>(message.status);
   if (robot == index_.end() || message.plan_id != plan_id_) {
@@ -72,6 +68,27 @@ void FleetServer::countRefused(const RobotProgress& message, const std::string& 
   ROS_WARN_THROTTLE(1, "progress that cannot be: %s", counts_.last_refused.c_str());
 }
 
+void FleetServer::reindex() {
+  for (std::uint32_t robot = 0; robot < fleet_->robots(); ++robot) {
+    index_[fleet_->id(robot)] = robot;
+  }
+}
+
+/// On a planning graph, whose vertices lie apart, all to which an edge leads that comes near.
+void FleetServer::markNear(std::vector<bool>& cells, Cell cell, double distance_m) const {
+  const auto& moves = fleet_->graph().closeMoves();
+  if (!moves) {
+    const Vertex vertex = grid_->grid->vertexAt(cell);
+    if (vertex != kNoVertex) cells[vertex] = true;
+    return;
+  }
+  const double resolution_m = grid_->geometry.info().resolution;
+  const PlanePoint centre{(cell.x + 0.5) * resolution_m, (cell.y + 0.5) * resolution_m};
+  // Anywhere in the cell.
+  const double far = distance_m + resolution_m * std::sqrt(0.5);
+  for (const Vertex v : moves->nearTo(centre, centre, far)) cells[v] = true;
+}
+
 /// The cell in which a pose lies; nothing where there is none, or no map yet.
 std::optional<Cell> FleetServer::placeOf(const geometry_msgs::PoseStamped& pose) const {
   if (pose.header.frame_id.empty() || !grid_) return std::nullopt;
@@ -90,14 +107,14 @@ std::optional<Cell> FleetServer::placeOf(const geometry_msgs::PoseStamped& pose)
 /// Cells that were blocked by a service, and those where robots stand that are not of the fleet.
 void FleetServer::closeCells() {
   std::vector<bool> blocked(grid_->grid->size(), false);
-  std::vector<bool> strangers = blocked;
-  const auto mark = [&](std::vector<bool>& cells, Cell cell) {
-    const Vertex vertex = grid_->grid->vertexAt(cell);
-    if (vertex != kNoVertex) cells[vertex] = true;
-  };
-  for (const std::uint32_t cell : blocked_) mark(blocked, grid_->geometry.cellOf(cell));
+  std::vector<bool> strangers = discs_ ? left_out_cells_ : blocked;
+  const double reach_m = discs_ ? discs_->reach() : 0;
+  const double distance_m = discs_ ? discs_->distance() : 0;
+  for (const std::uint32_t cell : blocked_) {
+    markNear(blocked, grid_->geometry.cellOf(cell), reach_m);
+  }
   for (const auto& [id, known] : known_) {
-    if (known.place && index_.count(id) == 0) mark(strangers, *known.place);
+    if (known.place && index_.count(id) == 0) markNear(strangers, *known.place, distance_m);
   }
   fleet_->setBlocked(blocked);
   fleet_->setStrangers(strangers);
@@ -162,7 +179,8 @@ void FleetServer::replan(const FleetQuestion& question, std::uint64_t epoch,
 
 /// Before any route that depends on it is sent.
 void FleetServer::keepLocked(double time) {
-  if (options_.execution_file.empty() || fleet_->isRestoring()) return;
+  // Robots that have size stop at the end of what is released, should this process die.
+  if (options_.execution_file.empty() || fleet_->isRestoring() || discs_) return;
   if (fleet_->snapshotVersion() == kept_version_) return;
   kept_version_ = fleet_->snapshotVersion();
   FleetSnapshot kept = fleet_->snapshot(time);
@@ -202,7 +220,12 @@ void FleetServer::welcome(const ros::SingleSubscriberPublisher& subscriber) {
 
 void FleetServer::publishState(double time) {
   state_at_ = time;
-  const std::vector<FleetRobotStatus> status = fleet_->status(time);
+  std::vector<FleetRobotStatus> status = fleet_->status(time);
+  // Only legs end at goals, and not those that nobody drives.
+  for (FleetRobotStatus& robot : status) robot.arrived = robot.arrived && isLastPart();
+  for (const RobotFault& fault : faults_) {
+    if (const auto robot = fleet_->find(fault.robot_id)) status[*robot].arrived = false;
+  }
   state_.publish(stateMessage(*fleet_, status, *grid_, plan_id_, ros::Time::now()));
   ExecutePlanFeedback feedback;
   counts_.arrived = counts_.absent = counts_.without_way = 0;
@@ -225,7 +248,7 @@ FleetServerStatus FleetServer::status() const {
   status.plan_id = plan_id_;
   if (!fleet_) return status;
   status.restoring = fleet_->isRestoring();
-  status.robots = fleet_->robots();
+  status.robots = fleet_->robots() + static_cast<std::uint32_t>(left_out_.size());
   status.rings = fleet_->rings();
   status.replans = fleet_->replans();
   if (!fleet_->trouble().empty()) status.trouble = fleet_->trouble();

@@ -143,7 +143,7 @@ void FleetServer::takeGoal(Goal goal) {
 
 /// Whether a plan brings the robots of the present execution to their present goals.
 bool FleetServer::isTheSame(const MultiRobotPlan& plan) const {
-  if (plan.paths.size() != fleet_->robots()) return false;
+  if (isOnRoadmap(plan) || plan.paths.size() != fleet_->robots()) return false;
   return std::all_of(plan.paths.begin(), plan.paths.end(), [this](const RobotPath& path) {
     const auto robot = fleet_->find(path.robot_id);
     if (!robot || path.cells.empty()) return false;
@@ -154,11 +154,7 @@ bool FleetServer::isTheSame(const MultiRobotPlan& plan) const {
 
 FleetServer::Waiting FleetServer::check(const Goal& goal) const {
   const MultiRobotPlan& plan = goal.getGoal()->plan;
-  if (isOnRoadmap(plan)) {
-    throw GoalError(Outcome::kInvalidOption,
-                    "the plan is on a planning graph, for robots that have size; only plans whose "
-                    "moves go to one of four neighbouring cells are executed yet");
-  }
+  if (isOnRoadmap(plan)) return checkDiscs(goal);
   PlanningGrid grid = latestGrid(maps_, options_.server.goal);
   const std::vector<std::string> wrong = findViolations(plan, grid);
   if (!wrong.empty()) {
@@ -170,6 +166,17 @@ FleetServer::Waiting FleetServer::check(const Goal& goal) const {
     throw GoalError(other_map ? Outcome::kInvalidMap : Outcome::kInvalidOption,
                     "the plan cannot be executed: " + wrong.front() + more);
   }
+  requireNames(plan);
+  FleetOptions options = options_.fleet;
+  options.step_sec = plan.step_duration;
+  if (options_.robot_radius_m > 0) {
+    options.release = releaseFraction(options_.robot_radius_m, grid.geometry.info().resolution);
+  }
+  requireValid(options);
+  return {goal, plan, std::move(grid), options, nullptr, 0};
+}
+
+void FleetServer::requireNames(const MultiRobotPlan& plan) const {
   std::vector<std::string> ids;
   for (const RobotPath& path : plan.paths) {
     const std::string fault = faultOfRobotId(path.robot_id);
@@ -180,13 +187,6 @@ FleetServer::Waiting FleetServer::check(const Goal& goal) const {
     ids.push_back(path.robot_id);
   }
   distinctRosNames(ids, "route");
-  FleetOptions options = options_.fleet;
-  options.step_sec = plan.step_duration;
-  if (options_.robot_radius_m > 0) {
-    options.release = releaseFraction(options_.robot_radius_m, grid.geometry.info().resolution);
-  }
-  requireValid(options);
-  return {goal, plan, std::move(grid), options, 0};
 }
 
 std::vector<RobotFault> FleetServer::notReady(const Waiting& waiting, double now) const {
@@ -200,8 +200,12 @@ std::vector<RobotFault> FleetServer::notReady(const Waiting& waiting, double now
       continue;
     }
     const std::optional<Cell>& place = known->second.place;
-    const Cell start = geometry.cellOf(path.cells.front());
-    if (!place || *place == start) continue;
+    const Cell start =
+        waiting.discs ? geometry.cellAt(path.start.position) : geometry.cellOf(path.cells.front());
+    const std::int32_t off = waiting.discs ? 1 : 0;  // cells of a map are small
+    if (!place || (std::abs(place->x - start.x) <= off && std::abs(place->y - start.y) <= off)) {
+      continue;
+    }
     faults.push_back(makeFault(path.robot_id, Outcome::kInvalidPose,
                                who + " is in cell " + geometry.describeWithMetres(*place) +
                                    ", but its path begins in cell " +
@@ -250,19 +254,33 @@ void FleetServer::beginWhenReady(double now) {
 void FleetServer::begin(const Waiting& waiting, double now) {
   std::vector<std::string> ids;
   for (const RobotPath& path : waiting.message.paths) ids.push_back(path.robot_id);
-  const Plan plan = planOf(waiting.message, waiting.grid);
   goal_ = waiting.goal;
-  planned_sec_ = makespanOf(plan) * waiting.options.step_sec;
-  fleet_ =
-      std::make_unique<FleetExecution>(grid_->grid, std::move(ids), plan, waiting.options, now);
+  began_ = now;
+  discs_ = waiting.discs;
+  part_ = 0;
+  if (discs_) {
+    const MultiRobotPlan& plan = waiting.message;
+    const std::uint32_t legs = plan.departure_steps + plan.arrival_steps;
+    planned_sec_ = (plan.makespan + legs) * waiting.options.step_sec;
+    part_options_ = waiting.options;
+    beginPart(ids, now);
+  } else {
+    const Plan plan = planOf(waiting.message, waiting.grid);
+    planned_sec_ = makespanOf(plan) * waiting.options.step_sec;
+    setFleet(
+        std::make_unique<FleetExecution>(grid_->grid, std::move(ids), plan, waiting.options, now));
+  }
+  ROS_INFO("executing a plan of %s, %.0f s", counted(fleet_->robots(), "robot").c_str(),
+           planned_sec_);
+}
+
+void FleetServer::setFleet(std::unique_ptr<FleetExecution> fleet) {
+  fleet_ = std::move(fleet);
   const ros::WallTime stamp = ros::WallTime::now();
   plan_id_ = std::to_string(stamp.sec) + "." + std::to_string(stamp.nsec / 1000);
-  began_ = now;
   ++epoch_;
   kept_version_ = 0;
   index_.clear();
-  ROS_INFO("executing a plan of %s, %.0f s", counted(fleet_->robots(), "robot").c_str(),
-           planned_sec_);
 }
 
 void FleetServer::takeUpAgain(double now) {
@@ -312,7 +330,12 @@ void FleetServer::takeCancel(const Goal& goal) {
 void FleetServer::endWhenFinished(double now) {
   if (!fleet_ || replans_ || !fleet_->isFinished()) return;
   const std::vector<FleetRobotStatus> status = fleet_->status(now);
-  const FaultList faults = listOf(faultsOf(*fleet_, status, *grid_));
+  if (goOnToNextPart(status, now)) return;
+  std::vector<RobotFault> all = faults_;
+  for (RobotFault& fault : faultsOf(*fleet_, status, *grid_)) {
+    if (left_out_.count(fault.robot_id) == 0) all.push_back(std::move(fault));
+  }
+  const FaultList faults = listOf(std::move(all));
   ExecutePlanResult result;
   result.duration = now - began_;
   result.planned = planned_sec_;
@@ -339,7 +362,8 @@ void FleetServer::end(const ExecutePlanResult& result) {
   for (std::uint32_t robot = 0; robot < fleet_->robots(); ++robot) {
     Known& known = known_[fleet_->id(robot)];
     const bool has_pose = !known.pose.header.frame_id.empty();
-    if (!has_pose) known.place = grid_->grid->cellOf(fleet_->vertexOf(robot));
+    if (has_pose) continue;
+    known.place = grid_->geometry.cellAt(pointOf(*fleet_, fleet_->vertexOf(robot), *grid_));
   }
   const bool arrived = result.outcome == codeOf(Outcome::kSucceeded);
   const bool cancelled = result.outcome == codeOf(Outcome::kCancelled);
@@ -351,6 +375,11 @@ void FleetServer::end(const ExecutePlanResult& result) {
   fleet_.reset();
   plan_id_.clear();
   index_.clear();
+  discs_.reset();
+  left_out_.clear();
+  faults_.clear();
+  all_paused_ = false;
+  paused_.clear();
   if (!options_.execution_file.empty()) removeExecution(options_.execution_file);
 }
 

@@ -26,6 +26,7 @@
 #include "ros/convert/fleet_options.h"
 #include "ros/convert/map_source.h"
 #include "ros/convert/pose_transformer.h"
+#include "ros/fleet/disc_parts.h"
 #include "split_mapf/fleet/fleet_execution.h"
 #include "split_mapf/ros/outcome.h"
 #include "split_mapf/ros/planning_grid.h"
@@ -85,6 +86,7 @@ class FleetServer {
     MultiRobotPlan message;
     PlanningGrid grid;
     FleetOptions options;
+    std::shared_ptr<const DiscParts> discs;  ///< of robots that have size; else null
     double since = 0;
   };
 
@@ -96,7 +98,15 @@ class FleetServer {
   void beginWhenReady(double now);
   void changeGrid(const PlanningGrid& grid);
   std::vector<RobotFault> notReady(const Waiting& waiting, double now) const;
+  Waiting checkDiscs(const Goal& goal) const;
+  void requireNames(const MultiRobotPlan& plan) const;
   void begin(const Waiting& waiting, double now);
+  void beginPart(const std::vector<std::string>& ids, double now);
+  bool goOnToNextPart(const std::vector<FleetRobotStatus>& status, double now);
+  bool isLastPart() const { return !discs_ || part_ + 1 == DiscParts::kParts; }
+  void leaveOut(std::uint32_t robot, const std::vector<FleetRobotStatus>& status);
+  void closeLeftOut();
+  void setFleet(std::unique_ptr<FleetExecution> fleet);
   void takeUpAgain(double now);
   void endWhenFinished(double now);
   void end(const ExecutePlanResult& result);
@@ -107,6 +117,8 @@ class FleetServer {
   std::optional<Cell> placeOf(const geometry_msgs::PoseStamped& pose) const;
   void countRefused(const RobotProgress& message, const std::string& why);
   void closeCells();
+  void markNear(std::vector<bool>& cells, Cell cell, double distance_m) const;
+  void reindex();
 
   // Services.
   bool blockCells(BlockCells::Request& request, BlockCells::Response& response);
@@ -135,6 +147,16 @@ class FleetServer {
   mutable std::mutex mutex_;
   std::unique_ptr<FleetExecution> fleet_;
   std::optional<PlanningGrid> grid_;
+  /// Of robots that have size: the parts of their execution, which of them runs, with what options,
+  /// and who was left behind in those before.
+  std::shared_ptr<const DiscParts> discs_;
+  std::uint32_t part_ = 0;
+  FleetOptions part_options_;
+  std::map<std::string, LeftOut> left_out_;
+  std::vector<bool> left_out_cells_;  ///< by vertex of the part
+  std::vector<RobotFault> faults_;
+  bool all_paused_ = false;
+  std::set<std::string> paused_;
   std::optional<Goal> goal_;  ///< that is being executed; nothing: taken up again without one
   std::optional<Waiting> waiting_;
   std::string plan_id_;

@@ -40,6 +40,12 @@ bool FleetServer::removeRobot(RemoveRobot::Request& request, RemoveRobot::Respon
   known_.erase(request.robot_id);
   const auto robot = fleet_ ? fleet_->find(request.robot_id) : std::nullopt;
   response.ok = robot.has_value();
+  if (!robot && left_out_.erase(request.robot_id) > 0) {
+    closeLeftOut();
+    response.ok = true;
+    response.message = "robot " + quote(request.robot_id) + " is off the floor";
+    return true;
+  }
   if (!robot) {
     response.message = "robot " + quote(shown(request.robot_id)) + " is not of the fleet";
     return true;
@@ -66,6 +72,7 @@ bool FleetServer::addRobot(AddRobot::Request& request, AddRobot::Response& respo
 /// @return why not; empty: done.
 std::string FleetServer::tryToAdd(const RobotTask& task) {
   if (!fleet_) return "no plan is being executed";
+  if (discs_) return "robots that have size cannot join a plan yet";
   const std::string fault = faultOfRobotId(task.robot_id);
   if (!fault.empty()) return "its robot_id " + fault;
   const auto known = known_.find(task.robot_id);
@@ -109,7 +116,15 @@ bool FleetServer::pauseRobots(PauseRobots::Request& request, PauseRobots::Respon
     response.message = "robot " + quote(shown(id)) + " is not of the fleet; nothing was changed";
     return true;
   }
-  if (request.robot_ids.empty()) fleet_->pauseAll(request.paused);
+  if (request.robot_ids.empty()) {
+    fleet_->pauseAll(request.paused);
+    all_paused_ = request.paused;
+    paused_.clear();
+  }
+  for (const std::string& id : request.robot_ids) {
+    if (request.paused) paused_.insert(id);
+    if (!request.paused) paused_.erase(id);
+  }
   for (const std::string& id : request.robot_ids) fleet_->pause(*fleet_->find(id), request.paused);
   response.ok = true;
   response.message =

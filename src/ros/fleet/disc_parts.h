@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <nav_msgs/OccupancyGrid.h>
+#include <split_mapf/MultiRobotPlan.h>
+
+#include "ros/convert/options_loader.h"
+#include "split_mapf/core/close_moves.h"
+#include "split_mapf/core/plan.h"
+#include "split_mapf/roadmap/leg_order.h"
+#include "split_mapf/ros/outcome.h"
+#include "split_mapf/ros/planning_grid.h"
+
+namespace split_mapf {
+
+/// A part of an execution: a plan of robots on a ground of their own.
+struct FleetPart {
+  std::shared_ptr<const Grid> grid;
+  std::shared_ptr<const CloseMoves> moves;
+  std::vector<std::string> ids;
+  Plan plan;
+  bool plans_anew = true;          ///< see FleetOptions
+  std::vector<RobotFault> faults;  ///< of robots that are not moved in it
+};
+
+/// A robot that was left behind in an earlier part: it is somewhere on this way, on the raster.
+using LeftOut = std::vector<PlanePoint>;
+
+/// A plan of robots that have size as three executions, one after the other: the legs onto the
+/// planning graph, the paths on it, and the legs off it. The graph is built anew from the map, the
+/// plan's radius and clearance, and the node's cell_size and passages. Immutable.
+class DiscParts {
+ public:
+  static constexpr std::uint32_t kParts = 3;
+
+  /// @pre isOnRoadmap(plan). @throws GoalError for a plan that is not valid, or not on that graph;
+  /// InputError as buildRoadmap() and orderLegs(). Cost: as buildRoadmap().
+  DiscParts(const MultiRobotPlan& plan, const nav_msgs::OccupancyGrid& map,
+            const GoalOptions& options);
+
+  const MapGeometry& geometry() const { return geometry_; }
+  /// Between centres, and between a centre and what is not free [m].
+  double distance() const { return distance_m_; }
+  double reach() const { return reach_m_; }
+  /// One part, for the robots that are to go on. In the last one robots whose legs come near to
+  /// those left out stay where they are. @throws InputError as orderLegs().
+  FleetPart part(std::uint32_t number, const std::vector<std::string>& ids,
+                 const std::vector<LeftOut>& left_out) const;
+
+ private:
+  void requireValid(const MultiRobotPlan& plan, const ObstacleRaster& raster) const;
+  void readRobots(const MultiRobotPlan& plan);
+  FleetPart legs(bool at_goal, const std::vector<std::uint32_t>& robots,
+                 const std::vector<LeftOut>& left_out) const;
+  bool comesNear(const DrivenLeg& leg, const LeftOut& way) const;
+
+  MapGeometry geometry_;
+  std::shared_ptr<const Grid> grid_;
+  std::shared_ptr<const CloseMoves> moves_;
+  std::vector<std::string> ids_;
+  Plan plan_;
+  std::vector<DrivenLeg> away_;  // by robot
+  std::vector<DrivenLeg> home_;
+  double clearance_m_ = 0;
+  double distance_m_ = 0;
+  double reach_m_ = 0;
+};
+
+}  // namespace split_mapf

@@ -1,0 +1,98 @@
+// Of the fleet server: plans of robots that have size, which are executed part by part.
+
+#include <algorithm>
+#include <utility>
+
+#include "ros/convert/fleet_messages.h"
+#include "ros/fleet/fleet_server.h"
+#include "split_mapf/core/error.h"
+#include "split_mapf/core/wording.h"
+
+namespace split_mapf {
+
+FleetServer::Waiting FleetServer::checkDiscs(const Goal& goal) const {
+  const MultiRobotPlan& plan = goal.getGoal()->plan;
+  const auto map = maps_.choose(std::make_shared<const nav_msgs::OccupancyGrid>());
+  auto discs = std::make_shared<const DiscParts>(plan, *map, options_.server.goal);
+  requireNames(plan);
+  FleetOptions options = options_.fleet;
+  options.step_sec = plan.step_duration;
+  const FleetPart first = discs->part(0, {}, {});
+  options.moves = first.moves;
+  requireValid(options);
+  PlanningGrid grid{first.grid, discs->geometry()};
+  return {goal, plan, std::move(grid), options, std::move(discs), 0};
+}
+
+/// Robots of the part stand where the one before brought them. Cells are closed before anybody is
+/// promised anything. @throws InputError as DiscParts::part().
+void FleetServer::beginPart(const std::vector<std::string>& ids, double now) {
+  std::vector<LeftOut> ways;
+  for (const auto& [id, way] : left_out_) ways.push_back(way);
+  FleetPart part = discs_->part(part_, ids, ways);
+  grid_->grid = part.grid;
+  faults_.insert(faults_.end(), part.faults.begin(), part.faults.end());
+  part_options_.moves = part.moves;
+  part_options_.plans_anew = part.plans_anew;
+  setFleet(std::make_unique<FleetExecution>(part.grid, part.ids, part.plan, part_options_, now));
+  reindex();
+  closeLeftOut();
+  closeCells();
+  if (all_paused_) fleet_->pauseAll(true);
+  for (const std::string& id : paused_) {
+    if (const auto robot = fleet_->find(id)) fleet_->pause(*robot, true);
+  }
+}
+
+/// Vertices of the part that are near to robots left behind.
+void FleetServer::closeLeftOut() {
+  left_out_cells_.assign(grid_->grid->size(), false);
+  const CloseMoves& moves = *fleet_->graph().closeMoves();
+  for (const auto& [id, way] : left_out_) {
+    for (std::size_t i = 0; i < way.size(); ++i) {
+      const PlanePoint next = way[std::min(i + 1, way.size() - 1)];
+      for (const Vertex v : moves.nearTo(way[i], next, discs_->distance())) {
+        left_out_cells_[v] = true;
+      }
+    }
+  }
+}
+
+/// A robot that did not come to where the part led it.
+void FleetServer::leaveOut(std::uint32_t robot, const std::vector<FleetRobotStatus>& status) {
+  const std::string& id = fleet_->id(robot);
+  LeftOut& way = left_out_[id];
+  for (const Vertex v : fleet_->ground(robot)) {
+    way.push_back(fleet_->graph().closeMoves()->place(v));
+  }
+  for (RobotFault& fault : faultsOf(*fleet_, status, *grid_)) {
+    if (fault.robot_id == id) return faults_.push_back(std::move(fault));
+  }
+  faults_.push_back(
+      makeFault(id, Outcome::kRobotBlocked,
+                "robot " + quote(id) + " has to stay where it is, for a robot that takes no part"));
+}
+
+/// @return whether there is one: robots that came to where this part led them go on.
+bool FleetServer::goOnToNextPart(const std::vector<FleetRobotStatus>& status, double now) {
+  if (isLastPart() || fleet_->isCancelled()) return false;
+  std::vector<std::string> ids;
+  for (std::uint32_t robot = 0; robot < status.size(); ++robot) {
+    const bool goes_on = status[robot].arrived && status[robot].absence == Absence::kNone;
+    if (goes_on) ids.push_back(fleet_->id(robot));
+    if (!goes_on) leaveOut(robot, status);
+  }
+  if (ids.empty()) return false;
+  ++part_;
+  try {
+    beginPart(ids, now);
+  } catch (const InputError& error) {
+    for (const std::string& id : ids) {
+      faults_.push_back(makeFault(id, Outcome::kUnreachableGoal, error.what()));
+    }
+    return false;
+  }
+  return true;
+}
+
+}  // namespace split_mapf

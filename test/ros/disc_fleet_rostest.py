@@ -1,0 +1,139 @@
+#!/usr/bin/env python3
+"""Robots of 0.3 m carry out a plan on the planning graph of a small building: from exactly their
+starts to exactly their goals, late, and one of them dying. Positions are checked by a script that
+knows the bag alone."""
+
+import copy
+import math
+import tempfile
+
+import rospy
+import rosunit
+from nav_msgs.msg import OccupancyGrid
+
+from fleet_case import FleetCase
+from ros_processes import PATIENCE, SentGoal, action_client, start_program, wait_until
+from split_mapf.msg import MultiRobotPlan, PlanOutcome, PlanPathsGoal, RobotState, RobotTask
+from split_mapf.srv import PauseRobots
+
+RADIUS = 0.3
+SPEED = 5.0
+CELL = 0.1
+# Two rooms, robots of the one go to the other through two doors.
+ROOMS = (121, 60)
+DOORS = (range(8, 18), range(40, 50))
+
+
+def building():
+    grid = OccupancyGrid()
+    grid.header.frame_id = "map"
+    grid.info.width, grid.info.height = ROOMS
+    grid.info.resolution = CELL
+    grid.info.origin.orientation.w = 1.0
+    wall = ROOMS[0] // 2
+    grid.data = [100 if x == wall and not any(y in door for door in DOORS) else 0
+                 for y in range(ROOMS[1]) for x in range(ROOMS[0])]
+    return grid
+
+
+def tasks():
+    """Robots in two columns, each to the place of one beyond the wall."""
+    left = [(0.7 + 1.31 * (i % 2), 0.8 + 2.05 * (i // 2)) for i in range(5)]
+    right = [(ROOMS[0] * CELL - x, y) for x, y in left]
+    robots = []
+    for index, (start, goal) in enumerate(zip(left + right, list(reversed(right)) + left[::-1])):
+        task = RobotTask(robot_id="r%d" % index)
+        for pose, (x, y) in ((task.start, start), (task.goal, goal)):
+            pose.header.frame_id = "map"
+            pose.pose.position.x, pose.pose.position.y = x, y
+            pose.pose.orientation.w = 1.0
+        robots.append(task)
+    return robots
+
+
+class DiscFleet(FleetCase):
+    ROBOTS = 10
+    APART = 2 * RADIUS
+
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("disc_fleet_rostest")
+        cls.directory = tempfile.TemporaryDirectory()
+        cls.map_topic = rospy.Publisher("map", OccupancyGrid, queue_size=1, latch=True)
+        cls.map_topic.publish(building())
+        planner = start_program("planner_node", "__name:=split_mapf", "_publish_paths:=false")
+        try:
+            goal = PlanPathsGoal(map=building(), robots=tasks())
+            goal.options.robot_radius = RADIUS
+            goal.options.robot_speed = SPEED
+            sent = SentGoal(action_client(), goal)
+            assert sent.wait_for_end(PATIENCE), planner.output()
+            assert sent.result().outcome == PlanOutcome.SUCCEEDED, sent.result().message
+            cls.plan = sent.result().plan
+        finally:
+            planner.end()
+        cls.STEP = cls.plan.step_duration
+        cls.plan_topic = rospy.Publisher("plan", MultiRobotPlan, queue_size=1, latch=True)
+        cls.plan_topic.publish(cls.plan)
+
+    def place_of(self, robot_id):
+        for message in reversed(self.progress.messages):
+            if message.robot_id == robot_id:
+                return message.pose.pose.position
+        return None
+
+    def assert_at_goal(self, path):
+        at = self.place_of(path.robot_id)
+        goal = path.goal.position
+        self.assertLess(math.hypot(at.x - goal.x, at.y - goal.y), 1e-3, path.robot_id)
+
+    def test_goes_from_pose_to_pose_without_a_robot_that_dies(self):
+        fleet = self.start_fleet()
+        victim = max(self.plan.paths, key=lambda path: len(path.cells)).robot_id
+        self.start_robots([victim + ":2"], speed=SPEED)
+        goal = self.send()
+        self.assertTrue(goal.wait_for_end(PATIENCE), fleet.output())
+        result = goal.result()
+        self.assertEqual(result.outcome, PlanOutcome.ROBOT_BLOCKED, result.message)
+        self.assertIn(victim, [fault.robot_id for fault in result.faults])
+        at_fault = {fault.robot_id for fault in result.faults}
+        arrived = [path for path in self.plan.paths if path.robot_id not in at_fault]
+        # Its legs may keep who stands next to it.
+        self.assertGreaterEqual(len(arrived), self.ROBOTS - 3, result.message)
+        for path in arrived:
+            self.assert_at_goal(path)
+        self.assert_kept_apart()
+
+    def test_all_arrive_though_the_fleet_is_paused_for_a_while(self):
+        fleet = self.start_fleet()
+        self.start_robots(speed=SPEED)
+        goal = self.send()
+        self.assertTrue(wait_until(lambda: self.count(RobotState.MOVING) > 2, PATIENCE),
+                        fleet.output())
+        pause = rospy.ServiceProxy("fleet/pause", PauseRobots)
+        self.assertTrue(pause([], True).ok)
+        self.assertTrue(wait_until(lambda: self.count(RobotState.MOVING) == 0, PATIENCE))
+        self.assertTrue(pause([], False).ok)
+        self.assertTrue(goal.wait_for_end(PATIENCE), fleet.output())
+        self.assertEqual(goal.result().outcome, PlanOutcome.SUCCEEDED, goal.result().message)
+        self.assertEqual(self.count(RobotState.ARRIVED), self.ROBOTS)
+        for path in self.plan.paths:
+            self.assert_at_goal(path)
+        self.assert_kept_apart()
+
+    def test_refuses_a_plan_of_another_graph(self):
+        self.start_fleet(5.0, "_cell_size:=1.3")
+        goal = self.send()
+        self.assertTrue(goal.wait_for_end(PATIENCE))
+        self.assertEqual(goal.result().outcome, PlanOutcome.INVALID_OPTION)
+        self.assertIn("cell_size", goal.result().message)
+        closer = copy.deepcopy(self.plan)
+        closer.robot_radius = closer.paths[0].radius = 0.9
+        goal = self.send(closer)
+        self.assertTrue(goal.wait_for_end(PATIENCE))
+        self.assertEqual(goal.result().outcome, PlanOutcome.INVALID_OPTION)
+        self.assertIn("cannot be executed", goal.result().message)
+
+
+if __name__ == "__main__":
+    rosunit.unitrun("split_mapf", "disc_fleet_rostest", DiscFleet)
