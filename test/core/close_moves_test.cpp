@@ -91,6 +91,13 @@ TEST(CloseMoves, ReleasesKeepTheDistanceAndNotMuchMore) {
   EXPECT_GT(parts, 100U);
 }
 
+TEST(CloseMoves, KnowsWhichVerticesARobotBesideTheGraphCloses) {
+  const CloseMoves moves(Graph(4, {{0, 1}, {2, 3}}), {{0, 0}, {2, 0}, {0, 5}, {2, 5}}, 0.5);
+  EXPECT_EQ(moves.nearTo({1, 0.4}, {1, 0.4}, 0.5), (std::vector<Vertex>{0, 1}));
+  EXPECT_TRUE(moves.nearTo({1, 0.6}, {1, 0.6}, 0.5).empty());
+  EXPECT_EQ(moves.nearTo({1, -1}, {1, 6}, 0.5).size(), 4U) << "its way crosses both";
+}
+
 /// Two robots that cross without a common vertex; a third one follows the first.
 ExecutionGraph crossing(std::shared_ptr<const CloseMoves> moves) {
   return ExecutionGraph(Precedence({{{0, 1}, {2, 2, 3}, {4, 0}}}, 5), 0, std::move(moves));

@@ -7,6 +7,7 @@
 
 #include "fleet/fleet_world.h"
 #include "split_mapf/core/error.h"
+#include "split_mapf/roadmap/leg_order.h"
 #include "support/ascii_grid.h"
 
 namespace split_mapf {
@@ -256,6 +257,41 @@ TEST(FleetExecution, FindsSilentRobotsAndTakesThemBack) {
   EXPECT_EQ(small.fleet->status(4)[0].absence, Absence::kNone);
   small.answer(4);
   EXPECT_EQ(small.fleet->route(0, 100).back().vertex, 3U);
+}
+
+/// Legs are driven in an order that no other plan would know: it stays, whoever fails.
+TEST(FleetExecution, EndsInItsOrderWhereNothingIsPlannedAnew) {
+  // The leg of b crosses that of a, which goes first; c is far away.
+  const LegOrder legs =
+      orderLegs({{{0, 0}, {2, 0}, 0.3, 0}, {{0, -2}, {0, 1}, 0.3, 1}, {{9, 9}, {9, 8}, 0.3, 0}}, 0,
+                {"robot a", "robot b", "robot c"});
+  FleetOptions options;
+  options.moves = legs.moves;
+  options.plans_anew = false;
+  FleetExecution fleet(legs.grid, {"a", "b", "c"}, legs.plan, options, 0);
+  EXPECT_FALSE(fleet.isFinished()) << "nobody was promised anything yet";
+  fleet.advance(0.1);
+  EXPECT_TRUE(fleet.status(0.1)[0].moves);
+  EXPECT_FALSE(fleet.status(0.1)[1].moves);
+  EXPECT_EQ(fleet.status(0.1)[1].waits_for, std::optional<std::uint32_t>(0));
+  fleet.report(0, {0, 0, DriveStatus::kFault, {}}, 0.2);
+  fleet.advance(0.3);
+  EXPECT_FALSE(fleet.isFinished()) << "c is under way";
+  EXPECT_EQ(fleet.report(2, {1, 0, DriveStatus::kOk, {}}, 0.4), ReportFate::kTaken);
+  fleet.advance(0.5);
+  EXPECT_TRUE(fleet.isFinished());
+  EXPECT_FALSE(fleet.ask(10));
+  EXPECT_FALSE(fleet.status(0.5)[1].arrived);
+  EXPECT_TRUE(fleet.status(0.5)[2].arrived);
+  EXPECT_EQ(fleet.ground(0).size(), 1U);
+}
+
+TEST(FleetExecution, RefusesJointRingsOnPlanningGraphs) {
+  const LegOrder legs = orderLegs({{{0, 0}, {2, 0}, 0.3, 0}}, 0, {"robot a"});
+  FleetOptions options;
+  options.moves = legs.moves;
+  options.joint_rings = true;
+  EXPECT_THROW(requireValid(options), OptionError);
 }
 
 }  // namespace

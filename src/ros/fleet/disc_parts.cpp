@@ -37,6 +37,7 @@ DiscParts::DiscParts(const MultiRobotPlan& plan, const nav_msgs::OccupancyGrid& 
   asked.robot_radius_m = plan.robot_radius;
   asked.clearance_m = plan.clearance;
   const std::optional<Roadmap> roadmap = buildRoadmap(raster, asked);
+  if (!roadmap) throw GoalError(Outcome::kInvalidMap, "no robot of the plan fits on the map");
   grid_ = gridOf(*roadmap);
   const std::vector<std::string> wrong = findViolations(plan, {grid_, geometry_});
   if (!wrong.empty()) {
