@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "io/file_bytes.h"
+#include "io/json_text.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
 #include "split_mapf/io/plan_json.h"
@@ -95,8 +96,7 @@ class LayoutReader {
       const Vertex v = grid_.vertexAt({json[0].get<std::int32_t>(), json[1].get<std::int32_t>()});
       if (v != kNoVertex) return v;
     }
-    fail("has a state that is no free cell of the map: " +
-         quote(json.dump(-1, ' ', true, Json::error_handler_t::replace)));
+    fail("has a state that is no free cell of the map: " + quote(asciiJson(json)));
   }
 
   const std::string& path_;

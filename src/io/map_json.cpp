@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/file_bytes.h"
+#include "io/json_text.h"
 
 namespace split_mapf {
 namespace {
@@ -52,7 +53,7 @@ std::string robotsText(const std::vector<PosedRobot>& robots) {
                     {"goal", poseJson(robot.goal)},
                     {"radius", radius}});
   }
-  return list.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  return asciiJson(list);
 }
 
 }  // namespace

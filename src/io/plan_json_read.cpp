@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/file_bytes.h"
+#include "io/json_text.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
 #include "split_mapf/io/plan_json.h"
@@ -17,9 +18,7 @@ using Json = nlohmann::json;
 }
 
 // A JSON value as a message shows it, cut where it is long.
-std::string shown(const Json& value) {
-  return quote(value.dump(-1, ' ', true, Json::error_handler_t::replace));
-}
+std::string shown(const Json& value) { return quote(asciiJson(value)); }
 
 // Strips what nlohmann-json puts before the reason: "[json.exception...] parse error at ...: ".
 std::string reasonOf(const Json::parse_error& error) {

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "io/file_bytes.h"
+#include "io/json_text.h"
 #include "io/layout_json.h"
 #include "split_mapf/io/plan_json.h"
 
@@ -11,10 +12,6 @@ namespace split_mapf {
 namespace {
 
 using Json = nlohmann::json;
-
-std::string dumped(const Json& value) {
-  return value.dump(-1, ' ', true, Json::error_handler_t::replace);
-}
 
 Json finiteOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
@@ -31,7 +28,7 @@ Json gapOf(const PlanReport& report) {
 }
 
 void writeField(std::ostream& out, const std::string& name, const Json& value) {
-  out << "  \"" << name << "\": " << dumped(value) << ",\n";
+  out << "  \"" << name << "\": " << asciiJson(value) << ",\n";
 }
 
 // A list with one entry a line, so that long results stay readable.
@@ -76,14 +73,14 @@ void writeProgress(std::ostream& out, const PlanReport& report) {
              report.plan ? finiteOrNull(report.first_plan_sec) : Json(nullptr));
   std::vector<std::string> rows;
   for (const TraceRow& row : report.trace) {
-    rows.push_back(dumped(Json::array({finiteOrNull(row.seconds), row.makespan, row.sum_of_costs,
-                                       finiteOrNull(row.proved_lower_bound)})));
+    rows.push_back(asciiJson(Json::array({finiteOrNull(row.seconds), row.makespan, row.sum_of_costs,
+                                          finiteOrNull(row.proved_lower_bound)})));
   }
   writeList(out, "trace", rows);
   out << ",\n  \"stages\": {";
   const char* separator = "";
   for (const auto& [name, seconds] : report.stages) {
-    out << separator << dumped(name) << ": " << dumped(finiteOrNull(seconds));
+    out << separator << asciiJson(name) << ": " << asciiJson(finiteOrNull(seconds));
     separator = ", ";
   }
   out << "},\n";
@@ -92,13 +89,13 @@ void writeProgress(std::ostream& out, const PlanReport& report) {
 void writeSubproblems(std::ostream& out, const PlanReport& report) {
   std::vector<std::string> rows;
   for (const SubproblemReport& piece : report.subproblems) {
-    rows.push_back(dumped(Json{{"phase", piece.phase},
-                               {"region", piece.region},
-                               {"agents", piece.agents},
-                               {"horizon", piece.horizon},
-                               {"solver", piece.solver},
-                               {"status", piece.status},
-                               {"seconds", finiteOrNull(piece.seconds)}}));
+    rows.push_back(asciiJson(Json{{"phase", piece.phase},
+                                  {"region", piece.region},
+                                  {"agents", piece.agents},
+                                  {"horizon", piece.horizon},
+                                  {"solver", piece.solver},
+                                  {"status", piece.status},
+                                  {"seconds", finiteOrNull(piece.seconds)}}));
   }
   writeList(out, "subproblems", rows);
   out << ",\n";
@@ -121,7 +118,7 @@ std::string pathRow(const Grid& grid, const Path& path) {
 std::string poseRow(const std::vector<MapPoint>& poses) {
   Json row = Json::array();
   for (const MapPoint& p : poses) row.push_back({p.x, p.y});
-  return dumped(row);
+  return asciiJson(row);
 }
 
 void writeDiscs(std::ostream& out, const Grid& grid, const DiscResult& discs) {

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "io/json_text.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
 #include "split_mapf/io/vda5050.h"
@@ -64,8 +65,7 @@ class Field {
   /// @throws InputError.
   [[noreturn]] void expected(const std::string& what) const {
     fail((name_.empty() ? "" : "field " + quote(name_) + " ") + std::string("is ") +
-         quote(json_->dump(-1, ' ', true, Json::error_handler_t::replace)) + "; " + what +
-         " is expected");
+         quote(asciiJson(*json_)) + "; " + what + " is expected");
   }
 
  private:

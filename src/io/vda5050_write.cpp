@@ -5,16 +5,13 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "io/json_text.h"
 #include "split_mapf/io/vda5050.h"
 
 namespace split_mapf {
 namespace {
 
 using Json = nlohmann::json;
-
-std::string textOf(const Json& json) {
-  return json.dump(-1, ' ', true, Json::error_handler_t::replace);
-}
 
 Json headerOf(const Vda5050Header& header) {
   return {{"headerId", header.header_id},
@@ -70,7 +67,7 @@ Json jsonOf(const Vda5050Order& order) {
 
 }  // namespace
 
-std::string toJson(const Vda5050Order& order) { return textOf(jsonOf(order)); }
+std::string toJson(const Vda5050Order& order) { return asciiJson(jsonOf(order)); }
 
 std::string toJson(const std::vector<Vda5050Order>& orders) {
   std::string text = "[";
@@ -85,7 +82,7 @@ std::string cancelOrderJson(const Vda5050Header& header, const std::string& acti
                        {"blockingType", "HARD"},
                        {"actionParameters", Json::array()}};
   json["actions"] = Json::array({action});
-  return textOf(json);
+  return asciiJson(json);
 }
 
 std::string vda5050Time(double unix_sec) {

@@ -1,9 +1,7 @@
 // The executor node: wiring only.
 
-#include <algorithm>
 #include <cstdlib>
 #include <string>
-#include <thread>
 
 #include <ros/ros.h>
 
@@ -40,8 +38,7 @@ void run(split_mapf::NodeContext& context) {
     ROS_WARN("parameter ~%s has no meaning for this node", name.c_str());
   }
   const std::uint32_t asked = options.server.goal.plan.threads;
-  split_mapf::Executor executor(asked != 0 ? asked
-                                           : std::max(1U, std::thread::hardware_concurrency()));
+  split_mapf::Executor executor(asked != 0 ? asked : split_mapf::Executor::machineThreads());
   const split_mapf::Planner planner(split_mapf::availableSolvers(), executor);
   planner.requireValid(options.server.goal.plan);
   const split_mapf::MapSource maps(context.node, options.server.map_file);

@@ -1,8 +1,6 @@
 // The planner node: wiring only.
 
-#include <algorithm>
 #include <string>
-#include <thread>
 
 #include <ros/ros.h>
 
@@ -32,7 +30,7 @@ constexpr std::uint32_t kArenas = 4;
 
 std::uint32_t workersFor(const split_mapf::ServerOptions& options) {
   if (options.goal.plan.threads != 0) return options.goal.plan.threads;
-  return std::max(1U, std::thread::hardware_concurrency());
+  return split_mapf::Executor::machineThreads();
 }
 
 void run(split_mapf::NodeContext& context) {

@@ -7,6 +7,7 @@
 #include <exception>
 #include <mutex>
 #include <new>
+#include <thread>
 #include <utility>
 
 #include "parallel/thread_budget.h"
@@ -72,6 +73,10 @@ Executor::Executor(std::uint32_t threads)
 Executor::Executor(OnCallersThread /*tag*/) : threads_(1) {}
 
 Executor::~Executor() = default;
+
+std::uint32_t Executor::machineThreads() {
+  return std::max(1U, std::thread::hardware_concurrency());
+}
 
 LentThreads Executor::lend(std::uint32_t asked) const {
   return budget_ ? LentThreads(threadsFor(asked), *budget_) : LentThreads();

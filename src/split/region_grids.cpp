@@ -11,30 +11,36 @@ Vertex RegionGrid::localOf(Vertex whole) const {
 
 namespace {
 
+std::uint32_t indexOf(const Grid& grid, Vertex v) {
+  const Cell cell = grid.cellOf(v);
+  return static_cast<std::uint32_t>(cell.y) * grid.width() + static_cast<std::uint32_t>(cell.x);
+}
+
 /// The cells of `map` as a grid, with the moves between them that the whole has.
 std::shared_ptr<const Grid> gridOf(const Grid& whole, const std::vector<Vertex>& map) {
-  const auto index_of = [&whole](Cell cell) {
-    return static_cast<std::size_t>(cell.y) * whole.width() + static_cast<std::size_t>(cell.x);
-  };
-  if (whole.hasUnitMoves()) {
-    std::vector<bool> free(std::size_t{whole.width()} * whole.height(), false);
-    for (const Vertex v : map) free[index_of(whole.cellOf(v))] = true;
-    return std::make_shared<const Grid>(whole.width(), whole.height(), free);
-  }
+  if (!whole.hasUnitMoves()) return planningGraphOf(whole, map);
+  std::vector<bool> free(std::size_t{whole.width()} * whole.height(), false);
+  for (const Vertex v : map) free[indexOf(whole, v)] = true;
+  return std::make_shared<const Grid>(whole.width(), whole.height(), free);
+}
+
+}  // namespace
+
+std::shared_ptr<const Grid> planningGraphOf(const Grid& whole,
+                                            const std::vector<Vertex>& vertices) {
   std::vector<std::uint32_t> cells;
   std::vector<std::pair<Vertex, Vertex>> edges;
-  for (Vertex local = 0; local < map.size(); ++local) {
-    cells.push_back(static_cast<std::uint32_t>(index_of(whole.cellOf(map[local]))));
-    for (const Vertex u : whole.graph().neighbours(map[local])) {
-      const auto other = std::lower_bound(map.begin(), map.end(), u);
-      if (u < map[local] || other == map.end() || *other != u) continue;
-      edges.emplace_back(local, static_cast<Vertex>(other - map.begin()));
+  for (Vertex local = 0; local < vertices.size(); ++local) {
+    const Vertex v = vertices[local];
+    cells.push_back(indexOf(whole, v));
+    for (const Vertex u : whole.graph().neighbours(v)) {
+      const auto other = std::lower_bound(vertices.begin(), vertices.end(), u);
+      if (u < v || other == vertices.end() || *other != u) continue;
+      edges.emplace_back(local, static_cast<Vertex>(other - vertices.begin()));
     }
   }
   return std::make_shared<const Grid>(whole.width(), whole.height(), std::move(cells), edges);
 }
-
-}  // namespace
 
 const RegionGrid& RegionGrids::of(std::uint32_t number, const Ownership& ownership,
                                   std::uint32_t region) {

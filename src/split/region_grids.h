@@ -21,6 +21,10 @@ struct RegionGrid {
   Vertex localOf(Vertex whole) const;
 };
 
+/// Some vertices of a grid as a planning graph, in their cells, with the moves between them that
+/// the whole has. @param vertices  ascending.
+std::shared_ptr<const Grid> planningGraphOf(const Grid& whole, const std::vector<Vertex>& vertices);
+
 /// Region grids, each built when first asked for and kept. Not thread-safe.
 class RegionGrids {
  public:

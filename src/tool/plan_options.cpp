@@ -2,13 +2,12 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <limits>
 #include <sstream>
-#include <thread>
 
 #include "split_mapf/core/error.h"
 #include "split_mapf/io/pose_scenario.h"
+#include "split_mapf/parallel/executor.h"
 #include "split_mapf/pipeline/disc_problem.h"
 
 namespace split_mapf::tool {
@@ -85,7 +84,7 @@ PlanOptions readPlanOptions(const CommandLine& line) {
   request.refine_sec = line.number("refine", request.refine_sec, 0);
   request.straighten = line.has("straighten");
   request.seed = line.wholeNumber("seed", request.seed, 0, kAny);
-  const std::uint32_t processors = std::max(1U, std::thread::hardware_concurrency());
+  const std::uint32_t processors = Executor::machineThreads();
   request.threads =
       static_cast<std::uint32_t>(line.wholeNumber("threads", processors, 1, kMostThreads));
   if (line.has("memory-limit")) {

@@ -8,7 +8,6 @@
 #include <optional>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "split_mapf/core/error.h"
@@ -17,6 +16,7 @@
 #include "split_mapf/io/map_file.h"
 #include "split_mapf/io/movingai.h"
 #include "split_mapf/io/task_file.h"
+#include "split_mapf/parallel/executor.h"
 #include "split_mapf/pipeline/roll.h"
 #include "tool/command_line.h"
 #include "tool/commands.h"
@@ -68,8 +68,8 @@ RollOptions readOptions(const CommandLine& line) {
   RollingOptions& rolling = options.rolling;
   rolling.window = static_cast<std::uint32_t>(
       line.wholeNumber("window", rolling.window, 1, RollingOptions::kMostWindow));
-  rolling.threads = static_cast<std::uint32_t>(
-      line.wholeNumber("threads", std::max(1U, std::thread::hardware_concurrency()), 1, 1024));
+  rolling.threads =
+      static_cast<std::uint32_t>(line.wholeNumber("threads", Executor::machineThreads(), 1, 1024));
   rolling.seed = line.wholeNumber("seed", 0, 0, kMost64);
   rolling.cache_bytes =
       line.wholeNumber("cache", rolling.cache_bytes >> 20U, 0, std::uint64_t{1} << 30U) << 20U;

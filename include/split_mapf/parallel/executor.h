@@ -28,6 +28,9 @@ class Executor {
   Executor(const Executor&) = delete;
   Executor& operator=(const Executor&) = delete;
 
+  /// Threads that the machine runs at once, as far as it tells; at least 1.
+  static std::uint32_t machineThreads();
+
   std::uint32_t threads() const { return threads_; }
   /// How many of them a caller gets that asks for so many (0: all).
   std::uint32_t threadsFor(std::uint32_t asked) const {

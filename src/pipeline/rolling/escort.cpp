@@ -1,9 +1,10 @@
 #include "pipeline/rolling/escort.h"
 
 #include <algorithm>
-#include <memory>
 #include <utility>
+#include <vector>
 
+#include "split/region_grids.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/solver/lacam.h"
 
@@ -110,29 +111,15 @@ class EscortTry {
   }
 
   std::optional<Plan> solve() const {
-    const Grid& grid = *question_.grid;
-    std::vector<std::uint32_t> cells;
-    std::vector<std::pair<Vertex, Vertex>> edges;
-    for (std::uint32_t i = 0; i < region_.size(); ++i) {
-      const Cell cell = grid.cellOf(region_[i]);
-      cells.push_back(static_cast<std::uint32_t>(cell.y) * grid.width() +
-                      static_cast<std::uint32_t>(cell.x));
-      for (const Vertex u : grid.graph().neighbours(region_[i])) {
-        if (u > region_[i] && inside_[u]) edges.emplace_back(i, numberOf(u));
-      }
-    }
-    auto region =
-        std::make_shared<const Grid>(grid.width(), grid.height(), std::move(cells), edges);
-    std::vector<Vertex> starts;
-    std::vector<Vertex> goals;
+    Problem problem{planningGraphOf(*question_.grid, region_), {}, {}};
     for (const std::uint32_t robot : members_) {
       const Vertex at = question_.fleet->robots[robot].prefix.back();
       Vertex goal = at == target_ ? leader().prefix.back() : at;
       if (robot == question_.leader) goal = target_;
-      starts.push_back(numberOf(at));
-      goals.push_back(numberOf(goal));
+      problem.starts.push_back(numberOf(at));
+      problem.goals.push_back(numberOf(goal));
     }
-    const Instance instance = Instance::fromVertices(std::move(region), starts, goals);
+    const Instance instance(std::move(problem));
     SolverOptions options;
     options.objective = Objective::kSumOfCosts;
     options.expansion_limit = kEscortExpansions;

@@ -1,0 +1,127 @@
+// How a PlanRun comes to its solver: by the request, by choice, and by another where one fails.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "pipeline/plan_run.h"
+#include "portfolio/auto_choice.h"
+#include "portfolio/solver_choice.h"
+
+namespace split_mapf {
+namespace {
+
+// The last resort is kept so many times what it is expected to take, at most a share of what is
+// left.
+constexpr double kReserve = 2;
+constexpr double kLargestReserve = 0.3;
+constexpr double kLeastReserveSec = 0.5;
+// Of a solver that is called for a plan which is only looked at: half a second or so.
+constexpr std::uint64_t kTurnOfOthers = 2000000;
+
+}  // namespace
+
+bool PlanRun::acceptShortestPath() {
+  const bool is_open =
+      report_.solver == "auto" && (report_.split == "auto" || report_.split == "none");
+  if (instance_.robots() > 1 || !is_open) return false;
+  log_.enterStage("validate");
+  SubproblemReport row;
+  row.agents = 1;
+  row.horizon = report_.makespan_lower_bound;
+  row.solver = request_.solver = "shortest_path";
+  row.status = toString(Termination::kSolved);
+  report_.subproblems.push_back(std::move(row));
+  choice_ = " (chosen: the robot is alone)";
+  accept(Plan{std::move(shortest_paths_)});
+  return true;
+}
+
+void PlanRun::choose() {
+  if (!mustChoose()) return;
+  log_.enterStage("choose");
+  if (!last_resort_.empty() && step_table_.isTooLarge()) {
+    request_.solver = last_resort_;
+    request_.solver_options.values = solvers_.info(last_resort_).lean_values;
+    choice_ = " (chosen: " + step_table_.describe() + ")";
+    return;
+  }
+  features_ = measureFeatures(instance_, shortest_paths_, deadline_);
+  shortest_paths_ = {};
+  AutoQuestion question;
+  question.features = *features_;
+  question.objective = report_.objective;
+  question.solvers = traits_;
+  question.splits = splits();
+  question.refines = request_.asked.refine_sec > 0;
+  const AutoChoice choice = chooseMethod(question, CostModel::shipped());
+  request_.solver = choice.solver;
+  request_.solver_options.expansion_limit = choice.turn;
+  keepTimeForLastResort(choice.last_resort_sec);
+  choice_ = " (chosen: " + choice.reason + ")";
+}
+
+bool PlanRun::refuseStepTables() {
+  const bool is_cut = splits() && request_.split.spec.time_ratios.size() != 1;
+  if (is_cut || request_.split.spec.space || !step_table_.isImpossible()) return false;
+  if (!keepsStepTable(traits_, request_.solver)) {
+    bool is_lean = true;
+    for (const auto& [name, value] : solvers_.info(request_.solver).lean_values) {
+      // What the user asks for is done or refused.
+      const auto [given, is_new] = request_.solver_options.values.emplace(name, value);
+      is_lean = is_lean && (is_new || given->second == value);
+    }
+    if (is_lean) return false;
+  }
+  report_.termination = Termination::kMemoryLimit;
+  report_.message = step_table_.describe(" of " + request_.solver) + ", at most " +
+                    StepTable::mostPossible() + " are possible";
+  if (!last_resort_.empty()) {
+    report_.message += "; solver " + last_resort_ + " keeps none";
+    if (request_.solver == last_resort_) report_.message += " without options of its own";
+  }
+  return true;
+}
+
+void PlanRun::keepTimeForLastResort(double expected_sec) {
+  const double left = deadline_.remainingSec();
+  if (expected_sec <= 0 || !std::isfinite(left)) return;
+  const double wanted = std::max(kReserve * expected_sec, kLeastReserveSec);
+  solve_deadline_ = deadline_.within(left - std::min(wanted, kLargestReserve * left));
+}
+void PlanRun::raiseBound(std::uint64_t bound, const std::string& by) {
+  if (static_cast<double>(bound) <= report_.proved_lower_bound) return;
+  report_.proved_lower_bound = static_cast<double>(bound);
+  report_.certified_by = by;
+  log_.setLowerBound(report_.proved_lower_bound);
+  judge();
+  report_.trace.push_back(
+      {log_.elapsedSec(), report_.makespan, report_.sum_of_costs, report_.proved_lower_bound});
+}
+
+bool PlanRun::callAnother(const RepairLoop::Outcome& outcome) {
+  const bool late = outcome.last.termination == Termination::kTimeout && !deadline_.expired();
+  const bool failed = late || outcome.last.termination == Termination::kNoPlanFound;
+  if (!outcome.plans.empty() || !failed) return false;
+  if (!others_) {
+    Others others{piece_solver_.otherSolvers(), last_resort_};
+    others.is_late = late;
+    others.without_tables = step_table_.isTooLarge();
+    others_ = lastCalledFirst(traits_, std::move(others));
+    solve_deadline_ = deadline_;
+  }
+  if (others_->empty()) return false;
+  const char* const how = late ? " was not done in time" : " gave up";
+  choice_.insert(choice_.size() - 1, "; " + request_.solver + how);
+  request_.solver = others_->back();
+  others_->pop_back();
+  request_.splitter = nullptr;
+  request_.solver_options.values.clear();
+  if (step_table_.isTooLarge()) {
+    request_.solver_options.values = solvers_.info(request_.solver).lean_values;
+  }
+  request_.solver_options.expansion_limit = request_.first_plan_only ? kTurnOfOthers : 0;
+  report_.subproblems.clear();  // they tell of the plan, and this one came to nothing
+  return true;
+}
+
+}  // namespace split_mapf
