@@ -12,7 +12,7 @@ configure_file(cmake/cost_model.cpp.in cost_model.cpp @ONLY)
 split_mapf_in_units(split_mapf_core SPLIT_MAPF_CORE_SOURCES)
 add_library(split_mapf_core ${SPLIT_MAPF_CORE_SOURCES} ${CMAKE_CURRENT_BINARY_DIR}/cost_model.cpp)
 target_include_directories(split_mapf_core
-  PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/include
+  PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
   PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src ${YAML_CPP_INCLUDE_DIR})
 target_link_libraries(split_mapf_core
   PUBLIC Threads::Threads
@@ -37,10 +37,6 @@ target_link_libraries(split_mapf PRIVATE
 split_mapf_compile_options(split_mapf)
 
 if(NOT SPLIT_MAPF_ROS)
-  install(TARGETS split_mapf_core ${SPLIT_MAPF_ILP_LIBRARY} split_mapf
-    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  #catkin_lint: ignore_once wrong_install_destination
-  install(DIRECTORY include/split_mapf DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" PATTERN ros EXCLUDE)
+  install(TARGETS split_mapf RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
+include(cmake/package.cmake)

@@ -5,6 +5,8 @@ if(SPLIT_MAPF_ROS)
   add_test(NAME downstream
     COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test/downstream/downstream_test.sh ${CMAKE_BINARY_DIR})
 endif()
+add_test(NAME downstream_plain
+  COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test/downstream/plain_test.sh ${CMAKE_BINARY_DIR})
 # The system's python, without other packages: it is there wherever ROS is.
 find_program(SPLIT_MAPF_PYTHON python3 HINTS /usr/bin)
 add_test(NAME tool
