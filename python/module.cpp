@@ -3,14 +3,12 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <algorithm>
 #include <exception>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <system_error>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -38,7 +36,7 @@ namespace py = pybind11;
 using Callback = std::optional<py::function>;
 
 std::unique_ptr<Executor> startExecutor(std::uint32_t threads) {
-  if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+  if (threads == 0) threads = Executor::machineThreads();
   try {
     return std::make_unique<Executor>(threads);
   } catch (const std::system_error& error) {

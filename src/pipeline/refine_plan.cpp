@@ -14,6 +14,7 @@
 #include "split_mapf/core/wording.h"
 #include "split_mapf/improve/refine.h"
 #include "split_mapf/portfolio/instance_features.h"
+#include "split_mapf/solver/solver.h"
 
 namespace split_mapf {
 namespace {
@@ -47,7 +48,10 @@ class KnownPlanRun {
     take(std::move(plan));
     log_.enterStage("refine");
     const StepTable table(instance_, report_.makespan);
-    if (table.isTooLarge()) {
+    if (!canRefine(report_.objective)) {
+      report_.message +=
+          "; not refined: there is no refinement for objective " + toString(report_.objective);
+    } else if (table.isTooLarge()) {
       report_.message += "; not refined: " + table.describe();
     } else {
       improve(solvers, executor, deadline);
@@ -74,9 +78,7 @@ class KnownPlanRun {
     report_.solvable = true;  // by the plan
     report_.makespan_lower_bound = makespanLowerBound(instance_);
     report_.sum_of_costs_lower_bound = sumOfCostsLowerBound(instance_);
-    report_.proved_lower_bound = static_cast<double>(
-        report_.objective == Objective::kMakespan ? std::uint64_t{report_.makespan_lower_bound}
-                                                  : report_.sum_of_costs_lower_bound);
+    report_.proved_lower_bound = static_cast<double>(lowerBound(instance_, report_.objective));
     log_.setLowerBound(report_.proved_lower_bound);
   }
 
