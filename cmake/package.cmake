@@ -33,7 +33,7 @@ install(TARGETS split_mapf_core ${SPLIT_MAPF_ILP_LIBRARY} EXPORT split_mapf_targ
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 #catkin_lint: ignore_once wrong_install_destination
 install(DIRECTORY include/split_mapf DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${package_component}
-  PATTERN ros EXCLUDE)
+  PATTERN ros EXCLUDE PATTERN client.h EXCLUDE)
 install(EXPORT split_mapf_targets NAMESPACE split_mapf:: FILE split_mapfTargets.cmake
   DESTINATION ${package_dir} ${package_component})
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/package/split_mapfConfig.cmake

@@ -18,15 +18,15 @@ endif()
 
 file(GLOB SPLIT_MAPF_PYTHON_MODULE_SOURCES CONFIGURE_DEPENDS python/*.cpp)
 split_mapf_in_units(split_mapf_python SPLIT_MAPF_PYTHON_MODULE_SOURCES)
-pybind11_add_module(split_mapf_python NO_EXTRAS ${SPLIT_MAPF_PYTHON_MODULE_SOURCES})
+add_library(split_mapf_python MODULE ${SPLIT_MAPF_PYTHON_MODULE_SOURCES})
 target_include_directories(split_mapf_python PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/python ${CMAKE_CURRENT_SOURCE_DIR}/src)
 target_compile_definitions(split_mapf_python PRIVATE SPLIT_MAPF_VERSION="${PROJECT_VERSION}")
-target_link_libraries(split_mapf_python PRIVATE split_mapf_available_solvers)
+target_link_libraries(split_mapf_python PRIVATE split_mapf_available_solvers pybind11::module)
 split_mapf_compile_options(split_mapf_python)
 if(SPLIT_MAPF_ROS)
   set(SPLIT_MAPF_PYTHON_DESTINATION ${CATKIN_GLOBAL_PYTHON_DESTINATION})
 else()
-  set(SPLIT_MAPF_PYTHON_DESTINATION ${CMAKE_INSTALL_LIBDIR}/python3/dist-packages)
+  set(SPLIT_MAPF_PYTHON_DESTINATION lib/python3/dist-packages)
   foreach(source IN LISTS SPLIT_MAPF_PYTHON_SOURCES)
     get_filename_component(folder ${source} DIRECTORY)
     install(FILES python/${source} DESTINATION ${SPLIT_MAPF_PYTHON_DESTINATION}/${folder})
@@ -34,6 +34,9 @@ else()
 endif()
 set_target_properties(split_mapf_python PROPERTIES
   OUTPUT_NAME _core
+  PREFIX ""
+  SUFFIX ${PYTHON_MODULE_EXTENSION}
+  CXX_VISIBILITY_PRESET hidden
   LIBRARY_OUTPUT_DIRECTORY ${SPLIT_MAPF_PYTHON_DIR}/split_mapf
   INSTALL_RPATH $ORIGIN/../../..)
 #catkin_lint: ignore_once undefined_target wrong_install_destination

@@ -107,6 +107,14 @@ class PlanClient(unittest.TestCase):
             self.assertEqual(found, code, output)
             self.assertIn(part, output)
 
+    def test_says_that_there_is_no_master(self):
+        client = Program(roslib.packages.find_node("split_mapf", "plan_client.py")[0], "--map",
+                         self.map, "--scen", self.scen, "--wait", "0.5",
+                         env={"ROS_MASTER_URI": "http://localhost:1"})
+        self.addCleanup(client.end)
+        self.assertEqual(client.wait(), 5, client.output())
+        self.assertIn("no ROS master answers on http://localhost:1", client.output())
+
     def test_names_a_robot_that_is_cut_off(self):
         # Walls round the first robot's goal, in the upper right corner.
         with open(self.map, encoding="ascii") as file:
