@@ -57,7 +57,7 @@ else()
 endif()
 
 catkin_install_python(PROGRAMS scripts/plan_client.py scripts/check_distances.py scripts/fleet_client.py
-  scripts/route_driver.py scripts/start_rviz.py
+  scripts/resolve_bag.py scripts/route_driver.py scripts/start_rviz.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(TARGETS split_mapf_core ${SPLIT_MAPF_ILP_LIBRARY} split_mapf_ros split_mapf_client
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}

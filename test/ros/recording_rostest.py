@@ -14,8 +14,8 @@ from diagnostic_msgs.msg import DiagnosticArray
 from rosgraph_msgs.msg import Clock
 from visualization_msgs.msg import MarkerArray
 
-from ros_processes import (Program, Recorder, SentGoal, action_client, wait_until, warehouse_goal,
-                           write_instance)
+from ros_processes import (Program, Recorder, SentGoal, action_client, start_program, wait_until,
+                           warehouse_goal, write_instance)
 from split_mapf.msg import PlanOutcome, PlanPathsActionGoal
 from split_mapf.srv import ReplayControl, ReplayControlRequest
 
@@ -135,17 +135,42 @@ class Recording(unittest.TestCase):
             found = bag.get_type_and_topic_info().topics
             self.assertGreater(count_of(found, "/replay/markers"), 40)
 
+    def resolve(self, bag):
+        program = start_program("resolve_bag.py", bag)
+        self.addCleanup(program.end)
+        return program.wait(), program.output()
+
+    def write_changed(self, change):
+        """The bag again, with its messages changed."""
+        path = os.path.join(self.directory, "changed.bag")
+        with rosbag.Bag(self.bag) as bag, rosbag.Bag(path, "w") as written:
+            for topic, message, stamp in bag.read_messages():
+                change(topic, message)
+                written.write(topic, message, stamp)
+        return path
+
     def test_a_recorded_goal_is_solved_again(self):
-        with rosbag.Bag(self.bag) as bag:
-            recorded = next(message for _, message, _ in
-                            bag.read_messages("/split_mapf/plan_paths/goal"))
         planner = Program(*self.planner_command)
         self.addCleanup(planner.end)
-        sent = SentGoal(action_client(), recorded.goal)
-        self.assertTrue(sent.wait_for_end(), planner.output())
-        self.assertEqual(sent.result().outcome, PlanOutcome.SUCCEEDED)
-        self.assertEqual(sent.result().plan.makespan, self.makespan)
+        code, output = self.resolve(self.bag)
+        self.assertEqual(code, 0, output + planner.output())
+        self.assertIn("the same: SUCCEEDED, makespan %d" % self.makespan, output)
+
+        def move_a_robot(topic, message):
+            if topic == ACTION + "goal":
+                message.goal.robots[2].goal.pose.position.x += 1
+        code, output = self.resolve(self.write_changed(move_a_robot))
+        self.assertEqual(code, 2, output)
+        self.assertRegex(output, r"[1-4] of 4 robots take another way, the first is 'robot_\d'")
+
+        def forget_a_robot(topic, message):
+            if topic == ACTION + "goal":
+                del message.goal.robots[3]
+        code, output = self.resolve(self.write_changed(forget_a_robot))
+        self.assertEqual(code, 2, output)
+        self.assertIn("3 robots, recorded 4; of one only: robot_3", output)
         planner.end()
+        self.assertEqual(self.resolve("nowhere.bag")[0], 1)
 
     def test_records_the_transforms_of_the_robots(self):
         record = Program("roslaunch", "split_mapf", "record.launch",
