@@ -65,8 +65,8 @@ DisplayProperties::DisplayProperties(rviz::Property* parent)
 FeedTopics DisplayProperties::topics() const {
   FeedTopics topics;
   topics.plan = plan->getTopicStd();
-  if (regions->getBool()) topics.layout = layout->getTopicStd();
-  if (graph->getBool()) topics.roadmap = roadmap->getTopicStd();
+  topics.layout = layout->getTopicStd();
+  topics.roadmap = roadmap->getTopicStd();
   topics.fleet_state = fleet_state->getTopicStd();
   topics.progress = progress->getTopicStd();
   if (!action->getStdString().empty()) topics.result = action->getStdString() + "/result";

@@ -24,7 +24,7 @@ class PlaceRobotsTool : public rviz::Tool {
   void press(PlanDisplay& display, ScenePoint point);
   void remove(PlanDisplay& display, ScenePoint point);
 
-  std::optional<PlacedRobots::Grip> grip_;  // what is dragged
+  std::optional<RobotDraft::Grip> grip_;  // what is dragged
 };
 
 }  // namespace split_mapf

@@ -42,12 +42,18 @@ void PlanAsker::ask(const std::vector<RobotTask>& robots, double time_limit_sec)
   goal.robots = robots;
   goal.options.time_limit = time_limit_sec;
   said_("asked for a plan of " + counted(robots.size(), "robot"));
+  has_ended_ = false;
   client_->sendGoal(
       goal,
       [this](const actionlib::SimpleClientGoalState& state, const PlanPathsResultConstPtr& result) {
+        has_ended_ = true;
         said_(result ? outcomeText(*result) : "the goal ended as " + state.toString());
       },
-      [] {}, [this](const PlanPathsFeedbackConstPtr& feedback) { said_(progressText(*feedback)); });
+      [] {},
+      [this](const PlanPathsFeedbackConstPtr& feedback) {
+        // The last one may come after the result: they come on two connections.
+        if (!has_ended_) said_(progressText(*feedback));
+      });
 }
 
 void PlanAsker::cancel() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <string>
@@ -31,6 +32,7 @@ class PlanAsker {
 
   std::function<void(const std::string&)> said_;
   std::string action_;
+  std::atomic<bool> has_ended_{true};
   std::unique_ptr<Client> client_;
 };
 

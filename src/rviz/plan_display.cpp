@@ -32,13 +32,14 @@ PlanDisplay* findIn(const rviz::DisplayGroup& group) {
 // Properties belong to the display, as to every parent of theirs.
 PlanDisplay::PlanDisplay() : properties_(std::make_unique<DisplayProperties>(this)) {
   for (int row = 0; row < numChildren(); ++row) {
-    connect(childAt(row), &rviz::Property::changed, this, [this] { changed_ = true; });
+    connect(childAt(row), &rviz::Property::changed, this,
+            [this] { changed_ = topics_changed_ = true; });
   }
-  connect(properties_->phase, &rviz::Property::changed, this, [this] { takeLayout(); });
-  connect(properties_->regions, &rviz::Property::changed, this, [this] { takeLayout(); });
-  connect(properties_->graph, &rviz::Property::changed, this, [this] {
-    if (layers_ && !properties_->graph->getBool()) layers_->hide(SceneLayer::kRoadmap);
-  });
+  for (rviz::Property* of_regions : {static_cast<rviz::Property*>(properties_->phase),
+                                     static_cast<rviz::Property*>(properties_->regions)}) {
+    connect(of_regions, &rviz::Property::changed, this, [this] { paintRegions(); });
+  }
+  connect(properties_->graph, &rviz::Property::changed, this, [this] { paintGraph(); });
   connect(properties_->speed, &rviz::Property::changed, this,
           [this] { timeline_.setSpeed(static_cast<double>(properties_->speed->getFloat())); });
   connect(properties_->loop, &rviz::Property::changed, this,
@@ -66,16 +67,14 @@ void PlanDisplay::onInitialize() {
   setStatus(StatusProperty::Warn, "Plan", "No plan has come yet.");
 }
 
-void PlanDisplay::onEnable() { subscribe(); }
+void PlanDisplay::onEnable() { topics_changed_ = true; }
 
-void PlanDisplay::onDisable() {
-  feed_->unsubscribe();
-  topics_ = {};
-}
+void PlanDisplay::onDisable() { feed_->unsubscribe(); }
 
 void PlanDisplay::reset() {
   Display::reset();
-  topics_ = {};
+  feed_->unsubscribe();
+  topics_changed_ = true;
   if (!scene_) setStatus(StatusProperty::Warn, "Plan", "No plan has come yet.");
   changed_ = true;
 }
@@ -85,10 +84,10 @@ void PlanDisplay::setTopic(const QString& topic, const QString& /*datatype*/) {
 }
 
 void PlanDisplay::subscribe() {
-  if (properties_->topics() == topics_) return;
-  topics_ = properties_->topics();
+  if (!topics_changed_) return;
+  topics_changed_ = false;
   try {
-    feed_->subscribe(topics_);
+    feed_->subscribe(properties_->topics());
     deleteStatus("Topics");
   } catch (const ros::Exception& error) {
     setStatusStd(StatusProperty::Error, "Topics", error.what());
@@ -105,9 +104,12 @@ void PlanDisplay::takeNews() {
   if (news.outcome) outcome_ = *news.outcome;
   if (news.layout) {
     layout_ = news.layout;
-    takeLayout();
+    paintRegions();
   }
-  if (news.roadmap) takeRoadmap(*news.roadmap);
+  if (news.roadmap) {
+    roadmap_ = news.roadmap;
+    paintGraph();
+  }
   if (!scene_) return;
   if (news.fleet) fleet_.take(*news.fleet, *scene_);
   for (const auto& [id, progress] : news.progress) fleet_.take(*progress, *scene_);
@@ -135,7 +137,7 @@ void PlanDisplay::takeScene(const std::shared_ptr<const PlanScene>& scene) {
   changed_ = true;
 }
 
-void PlanDisplay::takeLayout() {
+void PlanDisplay::paintRegions() {
   if (!layers_) return;
   QuadMesh& mesh = layers_->begin(SceneLayer::kLayout);
   try {
@@ -153,13 +155,14 @@ void PlanDisplay::takeLayout() {
   layers_->present(SceneLayer::kLayout);
 }
 
-void PlanDisplay::takeRoadmap(const visualization_msgs::MarkerArray& markers) {
+void PlanDisplay::paintGraph() {
+  if (!layers_) return;
   QuadMesh& mesh = layers_->begin(SceneLayer::kRoadmap);
   std::string frame;
   geometry_msgs::Point origin;
-  if (properties_->graph->getBool() && findRoadmap(markers, frame, origin)) {
+  if (properties_->graph->getBool() && roadmap_ && findRoadmap(*roadmap_, frame, origin)) {
     layers_->attach(SceneLayer::kRoadmap, frame, origin);
-    paintRoadmap(markers, origin, mesh);
+    paintRoadmap(*roadmap_, origin, mesh);
   }
   layers_->present(SceneLayer::kRoadmap);
 }

@@ -9,8 +9,8 @@
 
 #include "ros/replay/replay_timeline.h"
 #include "ros/scene/fleet_standing.h"
-#include "ros/scene/placed_robots.h"
 #include "ros/scene/plan_scene.h"
+#include "ros/scene/robot_draft.h"
 #include "rviz/cursor_watch.h"
 #include "rviz/display_properties.h"
 #include "rviz/plan_feed.h"
@@ -63,7 +63,7 @@ class PlanDisplay : public rviz::Display {
   const std::string& outcome() const { return outcome_; }
 
   /// Robots for the next plan. Call placedChanged() after a change.
-  PlacedRobots& placed() { return placed_; }
+  RobotDraft& placed() { return placed_; }
   void placedChanged() { placed_changed_ = true; }
   /// The point of the map under a place of the view, as placed() counts it; it gets its frame here.
   std::optional<ScenePoint> placeAt(QPoint place);
@@ -81,8 +81,8 @@ class PlanDisplay : public rviz::Display {
   void subscribe();
   void takeNews();
   void takeScene(const std::shared_ptr<const PlanScene>& scene);
-  void takeLayout();
-  void takeRoadmap(const visualization_msgs::MarkerArray& markers);
+  void paintRegions();
+  void paintGraph();
   void followFrames();
   void repaint();
   void paintMarks(const SceneStyle& style);
@@ -91,12 +91,12 @@ class PlanDisplay : public rviz::Display {
 
   std::unique_ptr<DisplayProperties> properties_;
   std::unique_ptr<PlanFeed> feed_;
-  FeedTopics topics_;
   std::shared_ptr<const PlanScene> scene_;
   PlanLayoutConstPtr layout_;
+  visualization_msgs::MarkerArrayConstPtr roadmap_;
   FleetStanding fleet_;
   ReplayTimeline timeline_;
-  PlacedRobots placed_;
+  RobotDraft placed_;
   std::unique_ptr<SceneLayers> layers_;
   std::unique_ptr<RobotLabels> labels_;
   std::unique_ptr<CursorWatch> cursor_;
@@ -105,6 +105,7 @@ class PlanDisplay : public rviz::Display {
   std::string outcome_;
   double shown_step_ = -1;
   float metres_per_pixel_ = 0;
+  bool topics_changed_ = true;
   bool changed_ = true;         // something besides time, of what is drawn
   bool placed_changed_ = true;  // of what is placed
   bool fitted_ = false;

@@ -149,10 +149,10 @@ std::optional<ScenePoint> PlanDisplay::placeAt(QPoint place) {
     } else {
       placed_.begin(fixed_frame_.toStdString(), geometry_msgs::Point());
     }
-    layers_->attach(SceneLayer::kMarks, placed_.frame(), placed_.origin());
+    layers_->attach(SceneLayer::kDraft, placed_.frame(), placed_.origin());
     layers_->follow();
   }
-  return groundAt(*manager()->getRenderPanel(), *layers_->node(SceneLayer::kMarks), place);
+  return groundAt(*manager()->getRenderPanel(), *layers_->node(SceneLayer::kDraft), place);
 }
 
 float PlanDisplay::placedRadius() const {

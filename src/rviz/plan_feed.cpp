@@ -10,50 +10,46 @@ namespace {
 // Robots report one after another; of each the latest counts.
 constexpr std::uint32_t kReports = 10000;
 
-template <class Message, class Take>
-ros::Subscriber listen(ros::NodeHandle& node, const std::string& topic, std::uint32_t queue,
-                       Take take) {
-  if (topic.empty()) return {};
-  const boost::function<void(const boost::shared_ptr<const Message>&)> callback = take;
-  return node.subscribe<Message>(topic, queue, callback);
-}
-
 }  // namespace
-
-bool operator==(const FeedTopics& a, const FeedTopics& b) {
-  return a.plan == b.plan && a.layout == b.layout && a.roadmap == b.roadmap &&
-         a.fleet_state == b.fleet_state && a.progress == b.progress && a.result == b.result;
-}
 
 PlanFeed::~PlanFeed() { unsubscribe(); }
 
+template <class Message, class Take>
+void PlanFeed::listen(Slot slot, const std::string& topic, std::uint32_t queue, Take take) {
+  Listening& listening = listening_[slot];
+  if (listening.topic == topic) return;
+  listening.subscriber.shutdown();
+  listening.topic.clear();
+  if (topic.empty()) return;
+  const boost::function<void(const boost::shared_ptr<const Message>&)> callback = take;
+  listening.subscriber = node_.subscribe<Message>(topic, queue, callback);
+  listening.topic = topic;
+}
+
 void PlanFeed::subscribe(const FeedTopics& topics) {
-  unsubscribe();
   const auto keep = [this](auto member) {
     return [this, member](const auto& message) {
       const std::lock_guard<std::mutex> lock(mutex_);
       news_.*member = message;
     };
   };
-  subscribers_.push_back(
-      listen<MultiRobotPlan>(node_, topics.plan, 1, [this](const auto& plan) { take(*plan); }));
-  subscribers_.push_back(listen<PlanLayout>(node_, topics.layout, 1, keep(&FeedNews::layout)));
-  subscribers_.push_back(
-      listen<visualization_msgs::MarkerArray>(node_, topics.roadmap, 1, keep(&FeedNews::roadmap)));
-  subscribers_.push_back(listen<FleetState>(node_, topics.fleet_state, 1, keep(&FeedNews::fleet)));
-  subscribers_.push_back(listen<RobotProgress>(node_, topics.progress, kReports,
-                                               [this](const RobotProgressConstPtr& progress) {
-                                                 const std::lock_guard<std::mutex> lock(mutex_);
-                                                 news_.progress[progress->robot_id] = progress;
-                                               }));
-  subscribers_.push_back(listen<PlanPathsActionResult>(
-      node_, topics.result, 1, [this](const auto& result) { take(result->result); }));
+  listen<MultiRobotPlan>(kPlan, topics.plan, 1, [this](const auto& plan) { take(*plan); });
+  listen<PlanLayout>(kLayout, topics.layout, 1, keep(&FeedNews::layout));
+  listen<visualization_msgs::MarkerArray>(kRoadmap, topics.roadmap, 1, keep(&FeedNews::roadmap));
+  listen<FleetState>(kFleetState, topics.fleet_state, 1, keep(&FeedNews::fleet));
+  listen<RobotProgress>(kProgress, topics.progress, kReports,
+                        [this](const RobotProgressConstPtr& progress) {
+                          const std::lock_guard<std::mutex> lock(mutex_);
+                          news_.progress[progress->robot_id] = progress;
+                        });
+  listen<PlanPathsActionResult>(kResult, topics.result, 1,
+                                [this](const auto& result) { take(result->result); });
 }
 
 void PlanFeed::unsubscribe() {
   // Waits for a callback that runs; it may want the mutex.
-  for (ros::Subscriber& subscriber : subscribers_) subscriber.shutdown();
-  subscribers_.clear();
+  for (Listening& listening : listening_) listening.subscriber.shutdown();
+  listening_ = {};
 }
 
 FeedNews PlanFeed::takeNews() {

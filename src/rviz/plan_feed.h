@@ -1,12 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
@@ -31,7 +31,6 @@ struct FeedTopics {
   std::string progress;
   std::string result;  ///< of the action PlanPaths
 };
-bool operator==(const FeedTopics& a, const FeedTopics& b);
 
 /// What has come in since it was asked last; what is null or empty has not.
 struct FeedNews {
@@ -54,17 +53,26 @@ class PlanFeed {
   PlanFeed& operator=(const PlanFeed&) = delete;
   ~PlanFeed();
 
-  /// Changes the topics. @throws ros::Exception for a name that is none.
+  /// Listens to these topics; who stays the same goes on. @throws ros::Exception for a name that is
+  /// none, and listens to those that come before it.
   void subscribe(const FeedTopics& topics);
   void unsubscribe();
   FeedNews takeNews();
 
  private:
+  enum Slot { kPlan, kLayout, kRoadmap, kFleetState, kProgress, kResult, kSlots };
+  struct Listening {
+    std::string topic;
+    ros::Subscriber subscriber;
+  };
+
+  template <class Message, class Take>
+  void listen(Slot slot, const std::string& topic, std::uint32_t queue, Take take);
   void take(const MultiRobotPlan& plan);
   void take(const PlanPathsResult& result);
 
   ros::NodeHandle node_;
-  std::vector<ros::Subscriber> subscribers_;
+  std::array<Listening, kSlots> listening_;
   std::mutex mutex_;
   FeedNews news_;
 };

@@ -99,8 +99,9 @@ QuadObject::QuadObject() {
   mRenderOp.vertexData = OGRE_NEW Ogre::VertexData;
   mRenderOp.indexData = OGRE_NEW Ogre::IndexData;
   declareCorners(*mRenderOp.vertexData->vertexDeclaration);
+  mRenderOp.vertexData->vertexCount = 0;
+  mRenderOp.indexData->indexCount = 0;
   mBox.setNull();
-  setVisible(false);
 }
 
 QuadObject::~QuadObject() {
@@ -126,13 +127,12 @@ void QuadObject::reserve(std::size_t corners) {
 
 void QuadObject::show(const QuadMesh& mesh) {
   const std::vector<QuadVertex>& corners = mesh.corners();
-  setVisible(!corners.empty());
-  if (corners.empty()) return;
-  reserve(corners.size());
   mRenderOp.vertexData->vertexStart = 0;
   mRenderOp.vertexData->vertexCount = corners.size();
   mRenderOp.indexData->indexStart = 0;
   mRenderOp.indexData->indexCount = corners.size() / kCornersAQuad * kIndicesAQuad;
+  if (corners.empty()) return;
+  reserve(corners.size());
   mRenderOp.vertexData->vertexBufferBinding->getBuffer(0)->writeData(
       0, sizeof(QuadVertex) * corners.size(), corners.data(), true);
   Ogre::AxisAlignedBox box;
@@ -145,6 +145,10 @@ void QuadObject::show(const QuadMesh& mesh) {
   box.setExtents(least, most);
   setBoundingBox(box);
   if (getParentNode() != nullptr) getParentNode()->needUpdate();
+}
+
+void QuadObject::_updateRenderQueue(Ogre::RenderQueue* queue) {
+  if (mRenderOp.indexData->indexCount > 0) SimpleRenderable::_updateRenderQueue(queue);
 }
 
 Ogre::Real QuadObject::getBoundingRadius() const {

@@ -17,6 +17,8 @@ class QuadObject : public Ogre::SimpleRenderable {
   /// Shows the mesh in place of the last one. Cost: a copy of it to the graphics card.
   void show(const QuadMesh& mesh);
 
+  /// Leaves itself out where it has nothing to draw, whoever made it visible.
+  void _updateRenderQueue(Ogre::RenderQueue* queue) override;
   Ogre::Real getBoundingRadius() const override;
   Ogre::Real getSquaredViewDepth(const Ogre::Camera* camera) const override;
 

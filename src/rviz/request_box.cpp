@@ -47,7 +47,7 @@ void RequestBox::refresh(PlanDisplay* shown) {
   setEnabled(shown != nullptr);
   if (shown == nullptr) return;
   asker_.choose(shown->properties().action->getStdString());
-  const PlacedRobots& placed = shown->placed();
+  const RobotDraft& placed = shown->placed();
   ask_->setEnabled(placed.complete() > 0);
   clear_->setEnabled(!placed.all().empty());
   take_over_->setEnabled(shown->scene() != nullptr);

@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
 """Starting what the package has the way a user does: without a display, and by rosrun."""
 
+import importlib.util
 import os
 import unittest
 
 import roslib.packages
 import rospy
 import rosunit
+import yaml
+from nav_msgs.msg import MapMetaData
 
 from ros_processes import Program
 
@@ -36,6 +39,24 @@ class Launch(unittest.TestCase):
     def test_a_launch_with_a_display_that_is_gone_says_a_sentence(self):
         self.assert_starts_without_rviz("the display :4711 (DISPLAY) cannot be opened",
                                         DISPLAY=":4711")
+
+    def test_the_view_of_rviz_fits_a_map_of_any_size(self):
+        package = roslib.packages.get_pkg_dir("split_mapf")
+        source = importlib.util.spec_from_file_location(
+            "start_rviz", os.path.join(package, "scripts", "start_rviz.py"))
+        start_rviz = importlib.util.module_from_spec(source)
+        source.loader.exec_module(start_rviz)
+        info = MapMetaData(width=40, height=20, resolution=0.5)
+        info.origin.position.x = 100
+        with open(os.path.join(package, "rviz", "split_mapf.rviz"), encoding="utf-8") as file:
+            before = yaml.safe_load(file)
+            file.seek(0)
+            after = yaml.safe_load(start_rviz.fitted(file.read(), info))
+        view = after["Visualization Manager"]["Views"]["Current"]
+        self.assertEqual((view["X"], view["Y"]), (110, 5))
+        self.assertGreater(view["Scale"] * 20, 600)
+        self.assertLess(view["Scale"] * 20, 700)
+        self.assertEqual(after["Window Geometry"], before["Window Geometry"])
 
     def test_rosrun_finds_the_nodes_after_scripts_build(self):
         node = roslib.packages.find_node("split_mapf", "planner_node")[0]

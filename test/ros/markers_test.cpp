@@ -92,9 +92,9 @@ TEST(PlanMarkers, DrawTrailsBehindRobotsThatMoved) {
   const Marker* trails = find(array, "trails");
   EXPECT_EQ(trails->action, Marker::ADD);
   EXPECT_EQ(trails->type, Marker::LINE_LIST);
-  // From step 0.5 to 1, 1 to 2, 2 to 2.5.
-  ASSERT_EQ(trails->points.size(), 6U);
-  ASSERT_EQ(trails->colors.size(), 6U);
+  // From step 0.5 to 2 straight on, then 2 to 2.5.
+  ASSERT_EQ(trails->points.size(), 4U);
+  ASSERT_EQ(trails->colors.size(), 4U);
   EXPECT_NEAR(trails->points.front().x, 1.0, 1e-9);
   EXPECT_NEAR(trails->points.back().y, 1.0, 1e-9);
   EXPECT_LT(trails->colors.front().a, trails->colors.back().a);
@@ -140,6 +140,9 @@ TEST(PlanMarkers, RefusePlansThatCannotBeDrawn) {
   plan.step_duration = 0;
   EXPECT_THROW(PlanMarkers(plan, {}), InputError);
   plan.step_duration = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(PlanMarkers(plan, {}), InputError);
+  plan = smallPlan();
+  plan.paths[0].radius = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(PlanMarkers(plan, {}), InputError);
   plan = smallPlan();
   plan.grid.resolution = 0;

@@ -9,6 +9,7 @@ import unittest
 import rospy
 import rosunit
 from nav_msgs.msg import OccupancyGrid, Path
+from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
 from ros_processes import (PATIENCE, Program, Recorder, SentGoal, action_client, robots_of, wait_until,
@@ -100,7 +101,36 @@ class Replay(unittest.TestCase):
                     ways[i][robot][1] - ways[i + 1][robot][1])
                 self.assertLess(jump, 5 * (stamps[i + 1] - stamps[i]) + 0.1)
 
+    def test_sends_goals_once_and_again_to_who_comes_later(self):
+        self.command(ReplayControlRequest.PAUSE)
+        self.command(ReplayControlRequest.SEEK, 0)
+        markers = Recorder("replay/markers", MarkerArray)
+        self.assertTrue(wait_until(lambda: any(self.goals_of(array) for array in markers.messages)))
+        seen = len(markers.messages)
+        self.command(ReplayControlRequest.PLAY)
+        self.assertTrue(markers.wait_for(seen + 12))
+        # The command itself has all sent anew; what follows moves.
+        moving = markers.messages[seen + 1:seen + 12]
+        self.assertLess(len([array for array in moving if self.goals_of(array)]), 3)
+        later = Recorder("replay/markers", MarkerArray)
+        self.assertTrue(wait_until(lambda: any(self.goals_of(array) for array in later.messages)))
+        # Where the motion ends, the last message has all, for who comes later yet.
+        self.assertTrue(wait_until(lambda: self.are_at(self.latest_markers(), 10 ** 6)))
+        self.assertTrue(wait_until(lambda: self.goals_of(self.latest_markers())))
+        for recorder in (markers, later):
+            recorder.close()
+
+    @staticmethod
+    def goals_of(array):
+        return [marker for marker in array.markers if marker.ns == "goals"]
+
+    def test_tells_tf_of_the_plans_frame(self):
+        static = rospy.wait_for_message("tf_static", TFMessage, timeout=PATIENCE)
+        self.assertIn(("map", "split_mapf_grid"),
+                      [(one.header.frame_id, one.child_frame_id) for one in static.transforms])
+
     def test_uses_few_markers_with_fixed_names(self):
+        self.command(ReplayControlRequest.PAUSE)
         self.command(ReplayControlRequest.SEEK, 5)
         array = self.latest_markers()
         names = sorted((marker.ns, marker.id) for marker in array.markers)

@@ -19,6 +19,13 @@ struct MarkerStyle {
   bool labels = false;  ///< each robot's id beside it
 };
 
+/// Which markers a message has besides robots and labels. Goals do not move, and trails change
+/// slowly: who sends many messages sends them seldom.
+struct MarkerParts {
+  bool goals = true;
+  bool trails = true;
+};
+
 /// A colour for robot `index`, well apart from those of its neighbours in number.
 std_msgs::ColorRGBA colourOf(std::size_t index);
 
@@ -35,9 +42,9 @@ class PlanMarkers {
   double steps() const { return steps_; }
   /// Markers at `position` [steps], where robots between two cells are between them.
   /// @param stale_labels  how many labels are on display; surplus ones are deleted.
-  /// Cost: O(robots * trail).
+  /// Cost: O(robots * trail). A trail has as many points as it has turns, not steps.
   visualization_msgs::MarkerArray at(double position, const ros::Time& stamp,
-                                     std::size_t stale_labels = 0) const;
+                                     std::size_t stale_labels = 0, MarkerParts parts = {}) const;
   /// Number of label markers that at() makes.
   std::size_t labels() const { return style_.labels ? ways_.size() : 0; }
 

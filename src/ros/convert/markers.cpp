@@ -79,11 +79,11 @@ PlanMarkers::PlanMarkers(const MultiRobotPlan& plan, const MarkerStyle& style)
   }
 }
 
-MarkerArray PlanMarkers::at(double position, const ros::Time& stamp,
-                            std::size_t stale_labels) const {
+MarkerArray PlanMarkers::at(double position, const ros::Time& stamp, std::size_t stale_labels,
+                            MarkerParts parts) const {
   MarkerArray array;
-  array.markers.push_back(trails(position, stamp));
-  array.markers.push_back(goals(stamp));
+  if (parts.trails) array.markers.push_back(trails(position, stamp));
+  if (parts.goals) array.markers.push_back(goals(stamp));
   array.markers.push_back(robots(position, stamp));
   addLabels(position, stamp, stale_labels, array);
   return array;

@@ -5,6 +5,7 @@
 #include <exception>
 #include <string>
 
+#include <geometry_msgs/TransformStamped.h>
 #include <ros/console.h>
 #include <ros/topic_manager.h>
 
@@ -12,6 +13,7 @@
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
 #include "split_mapf/ros/layout_messages.h"
+#include "split_mapf/ros/orientation.h"
 
 namespace split_mapf {
 namespace {
@@ -20,6 +22,10 @@ namespace {
 constexpr double kComparisonDelaySec = 1.0;
 // rviz subscribes some time before it draws for the first time.
 constexpr double kFirstLookSec = 3.0;
+// Robots cover the end of a trail that is a little late; most of a message would be trails.
+constexpr double kTrailsSec = 0.25;
+// Whoever missed the goals, as a player of a bag may have, sees them after this time.
+constexpr double kGoalsSec = 5.0;
 
 void requireAtLeast(double least, const char* name, double value) {
   if (!std::isfinite(value) || value < least) {
@@ -60,6 +66,7 @@ ReplayOptions readReplayOptions(const XmlRpc::XmlRpcValue& parameters) {
   reader.read("speed", options.speed);
   reader.read("loop", options.loop);
   reader.read("wait_for_viewer", options.wait_for_viewer);
+  reader.read("grid_frame", options.grid_frame);
   requireAtLeast(0, "robot_size", options.style.robot_size_cells);
   requireAtLeast(0, "trail_steps", options.style.trail_steps);
   requireAtLeast(0.1, "rate", options.rate_hz);
@@ -72,7 +79,12 @@ Replay::Replay(ros::NodeHandle node, ros::NodeHandle private_node, const ReplayO
     : options_(options) {
   timeline_.setSpeed(options.speed);
   timeline_.setLoop(options.loop);
-  publisher_ = private_node.advertise<visualization_msgs::MarkerArray>("markers", 1, true);
+  const ros::SubscriberStatusCallback on_viewer = [this](const ros::SingleSubscriberPublisher&) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    shown_position_.reset();
+  };
+  publisher_ = private_node.advertise<visualization_msgs::MarkerArray>(
+      "markers", 1, on_viewer, ros::SubscriberStatusCallback(), ros::VoidConstPtr(), true);
   layout_publisher_ =
       private_node.advertise<visualization_msgs::MarkerArray>("layout_markers", 1, true);
   const boost::function<void(const PlanLayoutConstPtr&)> on_layout =
@@ -106,8 +118,23 @@ void Replay::takePlan(const MultiRobotPlan& plan) {
   compare_at_ = ros::WallTime::now() + ros::WallDuration(kComparisonDelaySec);
   timeline_.load(markers_->steps(), plan.step_duration);
   shown_position_.reset();
+  tellFrameLocked(plan);
   ROS_INFO("replaying %zu robots, %.0f steps of %.2f s, at %.1f times their pace",
            plan.paths.size(), markers_->steps(), plan.step_duration, timeline_.speed());
+}
+
+void Replay::tellFrameLocked(const MultiRobotPlan& plan) {
+  const MapGeometry geometry(plan.grid, plan.header.frame_id);
+  if (options_.grid_frame.empty() || options_.grid_frame == geometry.frame()) return;
+  geometry_msgs::TransformStamped transform;
+  transform.header.stamp = ros::Time::now();
+  transform.header.frame_id = geometry.frame();
+  transform.child_frame_id = options_.grid_frame;
+  transform.transform.translation.x = geometry.info().origin.position.x;
+  transform.transform.translation.y = geometry.info().origin.position.y;
+  transform.transform.translation.z = geometry.info().origin.position.z;
+  transform.transform.rotation = quaternionOf(geometry.yaw());
+  broadcaster_.sendTransform(transform);
 }
 
 void Replay::takeLayout(const PlanLayout& layout) {
@@ -133,7 +160,22 @@ void Replay::tick() {
   moveLocked(now);
   compareGridsLocked();
   if (!markers_) return;
-  if (shown_position_ != timeline_.position()) publishLocked();
+  const bool moves = shown_position_ != timeline_.position();
+  const MarkerParts parts = duePartsLocked(moves);
+  if (moves || parts.goals || parts.trails) publishLocked(parts);
+}
+
+MarkerParts Replay::duePartsLocked(bool moves) const {
+  if (!shown_position_) return {};
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  MarkerParts due;
+  // Where robots stand, all of the last message still holds, and a bag needs no more of it.
+  due.goals = moves && (now - goals_at_).toSec() >= kGoalsSec;
+  due.trails = trails_position_ != timeline_.position() &&
+               (!moves || due.goals || (now - trails_at_).toSec() >= kTrailsSec);
+  // The last message of a motion is latched for whoever comes later.
+  if (due.trails && !moves) due.goals = true;
+  return due;
 }
 
 void Replay::moveLocked(ros::Time now) {
@@ -156,10 +198,14 @@ bool Replay::isWatchedLocked() {
   return (now - *watched_since_).toSec() >= kFirstLookSec;
 }
 
-void Replay::publishLocked() {
-  publisher_.publish(markers_->at(timeline_.position(), last_tick_, shown_labels_));
+void Replay::publishLocked(MarkerParts parts) {
+  publisher_.publish(markers_->at(timeline_.position(), last_tick_, shown_labels_, parts));
   shown_labels_ = markers_->labels();
   shown_position_ = timeline_.position();
+  if (parts.goals) goals_at_ = ros::SteadyTime::now();
+  if (!parts.trails) return;
+  trails_at_ = ros::SteadyTime::now();
+  trails_position_ = timeline_.position();
 }
 
 void Replay::compareGridsLocked() {

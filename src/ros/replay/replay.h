@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <mutex>
 #include <optional>
+#include <string>
 
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
@@ -12,6 +13,7 @@
 #include <split_mapf/MultiRobotPlan.h>
 #include <split_mapf/PlanLayout.h>
 #include <split_mapf/ReplayControl.h>
+#include <tf2_ros/static_transform_broadcaster.h>
 
 #include "ros/replay/replay_clock.h"
 #include "ros/replay/replay_timeline.h"
@@ -27,17 +29,21 @@ struct ReplayOptions {
   double speed = 0;
   bool loop = false;             ///< start again at the end
   bool wait_for_viewer = false;  ///< stand until somebody has subscribed ~markers for a moment
+  /// A frame at the grid's origin, told by tf so that viewers know the plan's frame; empty: none.
+  std::string grid_frame = "split_mapf_grid";
 };
 
-/// Reads ~robot_size, ~trail_steps, ~show_goals, ~show_labels, ~rate, ~speed, ~loop and
-/// ~wait_for_viewer.
+/// Reads ~robot_size, ~trail_steps, ~show_goals, ~show_labels, ~rate, ~speed, ~loop,
+/// ~wait_for_viewer and ~grid_frame.
 /// @throws OptionError naming the parameter.
 ReplayOptions readReplayOptions(const XmlRpc::XmlRpcValue& parameters);
 
 /// Shows plans as moving markers: subscribes `plan`, `planning_grid` and `layout`, publishes
-/// ~markers and ~layout_markers (latched), serves ~control. A new plan starts at once, at its step
-/// 0, and the one that is shown starts again when ROS time begins or jumps back. Paced by ROS time;
-/// by wall time where time is simulated and nobody publishes the clock. Thread-safe.
+/// ~markers and ~layout_markers (latched) and a frame at the grid's origin, serves ~control. Robots
+/// go out with every message, trails a few times a second, goals once a plan, a viewer and some
+/// seconds. A new plan starts at once, at its step 0, and the one that is shown starts again when
+/// ROS time begins or jumps back. Paced by ROS time; by wall time where time is simulated and
+/// nobody publishes the clock. Thread-safe.
 class Replay {
  public:
   Replay(ros::NodeHandle node, ros::NodeHandle private_node, const ReplayOptions& options);
@@ -53,7 +59,10 @@ class Replay {
   void moveLocked(ros::Time now);
   /// Whether whoever opened a viewer has had the time to see something.
   bool isWatchedLocked();
-  void publishLocked();
+  /// Which markers have to go out now besides the robots.
+  MarkerParts duePartsLocked(bool moves) const;
+  void publishLocked(MarkerParts parts);
+  void tellFrameLocked(const MultiRobotPlan& plan);
   /// Warns when the plan was made on another grid than the one that is shown.
   void compareGridsLocked();
 
@@ -68,8 +77,12 @@ class Replay {
   ros::Time last_tick_;
   std::optional<ros::SteadyTime> watched_since_;
   std::optional<double> shown_position_;
+  std::optional<double> trails_position_;
+  ros::SteadyTime trails_at_;
+  ros::SteadyTime goals_at_;
   std::size_t shown_labels_ = 0;
 
+  tf2_ros::StaticTransformBroadcaster broadcaster_;
   ros::Publisher publisher_;
   ros::Publisher layout_publisher_;
   ros::Subscriber plan_subscriber_;

@@ -86,15 +86,15 @@ ScenePoint PlanScene::at(std::size_t robot, double step) const {
           points[k].y + share * (points[k + 1].y - points[k].y)};
 }
 
-RobotMotion PlanScene::motion(std::size_t robot, double step) const {
-  if (step >= static_cast<double>(arrivals_[robot])) return RobotMotion::kArrived;
+PlannedMotion PlanScene::motion(std::size_t robot, double step) const {
+  if (step >= static_cast<double>(arrivals_[robot])) return PlannedMotion::kArrived;
   const auto k = static_cast<std::size_t>(std::max(0.0, step));
   const ScenePoint* points = points_.data() + begin_[robot];
-  return isSame(points[k], points[k + 1]) ? RobotMotion::kWaiting : RobotMotion::kMoving;
+  return isSame(points[k], points[k + 1]) ? PlannedMotion::kWaiting : PlannedMotion::kMoving;
 }
 
 std::optional<std::size_t> PlanScene::awaited(std::size_t robot, double step) const {
-  if (motion(robot, step) != RobotMotion::kWaiting) return std::nullopt;
+  if (motion(robot, step) != PlannedMotion::kWaiting) return std::nullopt;
   const ScenePoint* points = points_.data() + begin_[robot];
   const auto now = static_cast<std::size_t>(std::max(0.0, step));
   std::size_t next = now;

@@ -20,7 +20,7 @@ struct ScenePoint {
 };
 
 /// What a robot of a plan does at a moment.
-enum class RobotMotion { kMoving, kWaiting, kArrived };
+enum class PlannedMotion { kMoving, kWaiting, kArrived };
 
 /// Where every robot of a plan is at any time: what a display draws. Immutable, thread-safe.
 /// Memory: 8 bytes a robot and step.
@@ -44,7 +44,7 @@ class PlanScene {
   ScenePoint goal(std::size_t robot) const { return points_[begin_[robot + 1] - 1]; }
   /// [steps] since when the robot stands at its goal.
   std::size_t arrival(std::size_t robot) const { return arrivals_[robot]; }
-  RobotMotion motion(std::size_t robot, double step) const;
+  PlannedMotion motion(std::size_t robot, double step) const;
   /// The robot in whose way this one is at a step: the last to be where this one goes next, before
   /// it does. Empty when it does not wait. Cost: O(robots * length of the wait).
   std::optional<std::size_t> awaited(std::size_t robot, double step) const;

@@ -24,9 +24,9 @@ PackedColour colourOfRobot(std::size_t robot) {
 
 ShownState stateInPlan(const SceneMoment& moment, std::size_t robot) {
   switch (moment.scene.motion(robot, moment.step)) {
-    case RobotMotion::kWaiting:
+    case PlannedMotion::kWaiting:
       return ShownState::kWaiting;
-    case RobotMotion::kArrived:
+    case PlannedMotion::kArrived:
       return ShownState::kArrived;
     default:
       return ShownState::kMoving;

@@ -1,4 +1,4 @@
-#include "ros/scene/placed_robots.h"
+#include "ros/scene/robot_draft.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,13 +15,13 @@ float distance(ScenePoint a, ScenePoint b) { return std::hypot(a.x - b.x, a.y - 
 
 }  // namespace
 
-void PlacedRobots::begin(const std::string& frame, const geometry_msgs::Point& origin) {
+void RobotDraft::begin(const std::string& frame, const geometry_msgs::Point& origin) {
   robots_.clear();
   frame_ = frame;
   origin_ = origin;
 }
 
-void PlacedRobots::takeOver(const SceneMoment& moment) {
+void RobotDraft::takeOver(const SceneMoment& moment) {
   const PlanScene& scene = moment.scene;
   begin(scene.geometry().frame(), scene.geometry().info().origin.position);
   for (std::size_t robot = 0; robot < scene.robots(); ++robot) {
@@ -30,23 +30,23 @@ void PlacedRobots::takeOver(const SceneMoment& moment) {
   }
 }
 
-std::size_t PlacedRobots::complete() const {
+std::size_t RobotDraft::complete() const {
   return static_cast<std::size_t>(
       std::count_if(robots_.begin(), robots_.end(),
-                    [](const PlacedRobot& robot) { return robot.goal.has_value(); }));
+                    [](const DraftRobot& robot) { return robot.goal.has_value(); }));
 }
 
-std::string PlacedRobots::freeId() const {
+std::string RobotDraft::freeId() const {
   for (std::size_t number = robots_.size();; ++number) {
     std::string id = "r" + std::to_string(number);
     if (std::none_of(robots_.begin(), robots_.end(),
-                     [&](const PlacedRobot& robot) { return robot.id == id; })) {
+                     [&](const DraftRobot& robot) { return robot.id == id; })) {
       return id;
     }
   }
 }
 
-PlacedRobots::Grip PlacedRobots::add(ScenePoint point) {
+RobotDraft::Grip RobotDraft::add(ScenePoint point) {
   for (std::size_t robot = 0; robot < robots_.size(); ++robot) {
     if (robots_[robot].goal) continue;
     robots_[robot].goal = point;
@@ -56,7 +56,7 @@ PlacedRobots::Grip PlacedRobots::add(ScenePoint point) {
   return {robots_.size() - 1, End::kStart};
 }
 
-std::optional<PlacedRobots::Grip> PlacedRobots::near(ScenePoint point, float reach_m) const {
+std::optional<RobotDraft::Grip> RobotDraft::near(ScenePoint point, float reach_m) const {
   std::optional<Grip> nearest;
   float least = reach_m;
   for (std::size_t robot = 0; robot < robots_.size(); ++robot) {
@@ -70,7 +70,7 @@ std::optional<PlacedRobots::Grip> PlacedRobots::near(ScenePoint point, float rea
   return nearest;
 }
 
-void PlacedRobots::move(Grip grip, ScenePoint point) {
+void RobotDraft::move(Grip grip, ScenePoint point) {
   if (grip.end == End::kGoal) {
     robots_[grip.robot].goal = point;
   } else {
@@ -78,11 +78,11 @@ void PlacedRobots::move(Grip grip, ScenePoint point) {
   }
 }
 
-void PlacedRobots::remove(std::size_t robot) {
+void RobotDraft::remove(std::size_t robot) {
   robots_.erase(robots_.begin() + static_cast<std::ptrdiff_t>(robot));
 }
 
-std::vector<RobotTask> PlacedRobots::tasks() const {
+std::vector<RobotTask> RobotDraft::tasks() const {
   std::vector<RobotTask> tasks;
   const auto put = [this](ScenePoint point, geometry_msgs::PoseStamped& pose) {
     pose.header.frame_id = frame_;
@@ -90,7 +90,7 @@ std::vector<RobotTask> PlacedRobots::tasks() const {
     pose.pose.position.y = origin_.y + static_cast<double>(point.y);
     pose.pose.position.z = origin_.z;
   };
-  for (const PlacedRobot& robot : robots_) {
+  for (const DraftRobot& robot : robots_) {
     if (!robot.goal) continue;
     RobotTask task;
     task.robot_id = robot.id;
@@ -101,9 +101,9 @@ std::vector<RobotTask> PlacedRobots::tasks() const {
   return tasks;
 }
 
-void PlacedRobots::paint(float radius_m, QuadMesh& mesh) const {
+void RobotDraft::paint(float radius_m, QuadMesh& mesh) const {
   for (std::size_t k = 0; k < robots_.size(); ++k) {
-    const PlacedRobot& robot = robots_[k];
+    const DraftRobot& robot = robots_[k];
     const std_msgs::ColorRGBA of_robot = colourOf(k);
     const PackedColour colour = packed(of_robot.r, of_robot.g, of_robot.b);
     mesh.addDisc(robot.start, 1.2F * radius_m, 0, packed(0, 0, 0));

@@ -14,7 +14,7 @@
 namespace split_mapf {
 
 /// A robot whose start and goal somebody puts on the map by hand.
-struct PlacedRobot {
+struct DraftRobot {
   std::string id;
   ScenePoint start;
   std::optional<ScenePoint> goal;
@@ -22,7 +22,7 @@ struct PlacedRobot {
 
 /// The robots that the next plan is asked for. A click places a start, the next one that robot's
 /// goal; what has been placed can be moved and taken away. Not thread-safe.
-class PlacedRobots {
+class RobotDraft {
  public:
   enum class End { kStart, kGoal };
   /// One end of a robot's way, as long as no robot is taken away.
@@ -38,7 +38,7 @@ class PlacedRobots {
 
   const std::string& frame() const { return frame_; }
   const geometry_msgs::Point& origin() const { return origin_; }
-  const std::vector<PlacedRobot>& all() const { return robots_; }
+  const std::vector<DraftRobot>& all() const { return robots_; }
   /// Robots that have a goal.
   std::size_t complete() const;
 
@@ -59,7 +59,7 @@ class PlacedRobots {
 
   std::string frame_;
   geometry_msgs::Point origin_;
-  std::vector<PlacedRobot> robots_;
+  std::vector<DraftRobot> robots_;
 };
 
 }  // namespace split_mapf
