@@ -124,8 +124,8 @@ void PlanDisplay::takeScene(const std::shared_ptr<const PlanScene>& scene) {
   fleet_.begin(scene_->robots());
   timeline_.load(scene_->steps(), scene_->stepDurationSec());
   const MapGeometry& geometry = scene_->geometry();
-  for (const SceneLayer layer :
-       {SceneLayer::kTrails, SceneLayer::kGoals, SceneLayer::kRobots, SceneLayer::kMarks}) {
+  for (const SceneLayer layer : {SceneLayer::kTrails, SceneLayer::kGoals, SceneLayer::kRobots,
+                                 SceneLayer::kWaits, SceneLayer::kMarks}) {
     layers_->attach(layer, geometry.frame(), geometry.info().origin.position);
   }
   const std::string said = counted(scene_->robots(), "robot") + ", makespan " +

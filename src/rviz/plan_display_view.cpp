@@ -71,9 +71,15 @@ void PlanDisplay::repaint() {
   if (changed_ || placed_changed_ || timeline_.position() != shown_step_) {
     SceneStyle style = properties_->style();
     style.least_radius_m = properties_->least_size->getFloat() / 2 * metres_per_pixel_;
+    // Only a view of parallel rays has one scale.
+    const bool parallel =
+        panel != nullptr && panel->getCamera()->getProjectionType() == Ogre::PT_ORTHOGRAPHIC;
+    style.pixel_m = parallel ? metres_per_pixel_ : 0;
     if (scene_) {
       paintRobots(moment(), style, layers_->begin(SceneLayer::kRobots));
       layers_->present(SceneLayer::kRobots);
+      paintWaits(moment(), style, layers_->begin(SceneLayer::kWaits));
+      layers_->present(SceneLayer::kWaits);
       paintTrails(moment(), style, layers_->begin(SceneLayer::kTrails));
       layers_->present(SceneLayer::kTrails);
     }

@@ -17,7 +17,7 @@ namespace {
 
 using Request = ReplayControl::Request;
 
-constexpr int kRefreshMs = 100;
+constexpr int kRefreshMs = 200;
 constexpr double kTenths = 10;  // positions of the slider a step
 constexpr double kMostTenths = 1e9;
 

@@ -22,17 +22,19 @@
 namespace split_mapf {
 namespace {
 
-constexpr const char* kName = "split_mapf/disc";
+constexpr const char* kPicture = "split_mapf/disc";
 constexpr std::size_t kCornersAQuad = 4;
 constexpr std::size_t kIndicesAQuad = 6;
 constexpr std::uint32_t kPictureSide = 64;  // [pixels]
 
 /// White; opaque within the disc, and a pixel's width of shade at its edge.
-Ogre::TexturePtr makePicture() {
-  const auto picture = Ogre::TextureManager::getSingleton().createManual(
-      kName, Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME, Ogre::TEX_TYPE_2D,
-      kPictureSide, kPictureSide, Ogre::MIP_UNLIMITED, Ogre::PF_BYTE_RGBA,
-      Ogre::TU_STATIC | Ogre::TU_AUTOMIPMAP);
+void providePicture() {
+  Ogre::TextureManager& textures = Ogre::TextureManager::getSingleton();
+  const std::string& group = Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME;
+  if (textures.resourceExists(kPicture, group)) return;
+  const auto picture = textures.createManual(kPicture, group, Ogre::TEX_TYPE_2D, kPictureSide,
+                                             kPictureSide, Ogre::MIP_UNLIMITED, Ogre::PF_BYTE_RGBA,
+                                             Ogre::TU_STATIC | Ogre::TU_AUTOMIPMAP);
   std::vector<std::uint8_t> pixels;
   const double middle = kPictureSide / 2.0;
   for (std::uint32_t y = 0; y < kPictureSide; ++y) {
@@ -44,15 +46,23 @@ Ogre::TexturePtr makePicture() {
   }
   picture->getBuffer()->blitFromMemory(
       Ogre::PixelBox(kPictureSide, kPictureSide, 1, Ogre::PF_BYTE_RGBA, pixels.data()));
-  return picture;
 }
 
-Ogre::MaterialPtr findMaterial() {
-  Ogre::MaterialManager& materials = Ogre::MaterialManager::getSingleton();
-  if (materials.resourceExists(kName, Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME))
-    return materials.getByName(kName, Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME);
-  const Ogre::MaterialPtr material =
-      materials.create(kName, Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME);
+void addPicture(Ogre::Pass& pass) {
+  providePicture();
+  Ogre::TextureUnitState* unit = pass.createTextureUnitState(kPicture);
+  unit->setTextureAddressingMode(Ogre::TextureUnitState::TAM_CLAMP);
+  // Of the pictures of several sizes the best one alone: mixing two costs most where GL is
+  // software.
+  unit->setTextureFiltering(Ogre::FO_LINEAR, Ogre::FO_LINEAR, Ogre::FO_POINT);
+}
+
+/// One a mesh, as each has dots of its own size.
+Ogre::MaterialPtr makeMaterial(bool discs) {
+  static std::uint64_t number = 0;
+  const Ogre::MaterialPtr material = Ogre::MaterialManager::getSingleton().create(
+      "split_mapf/" + std::to_string(number++),
+      Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME);
   material->setReceiveShadows(false);
   Ogre::Pass* pass = material->getTechnique(0)->getPass(0);
   pass->setLightingEnabled(false);
@@ -61,9 +71,7 @@ Ogre::MaterialPtr findMaterial() {
   pass->setDepthWriteEnabled(false);
   pass->setDepthBias(1);
   pass->setCullingMode(Ogre::CULL_NONE);
-  Ogre::TextureUnitState* unit = pass->createTextureUnitState(makePicture()->getName());
-  unit->setTextureAddressingMode(Ogre::TextureUnitState::TAM_CLAMP);
-  unit->setTextureFiltering(Ogre::TFO_TRILINEAR);
+  if (discs) addPicture(*pass);
   return material;
 }
 
@@ -87,8 +95,10 @@ std::vector<std::uint32_t> indicesOf(std::size_t quads) {
 
 }  // namespace
 
-QuadObject::QuadObject() {
-  const Ogre::MaterialPtr material = findMaterial();
+QuadObject::QuadObject(bool discs) {
+  const Ogre::MaterialPtr material = makeMaterial(discs);
+  material_ = material->getName();
+  pass_ = material->getTechnique(0)->getPass(0);
 #if OGRE_VERSION < ((1 << 16) | (10 << 8))
   setMaterial(material->getName());
 #else
@@ -107,6 +117,19 @@ QuadObject::QuadObject() {
 QuadObject::~QuadObject() {
   OGRE_DELETE mRenderOp.vertexData;
   OGRE_DELETE mRenderOp.indexData;
+  Ogre::MaterialManager::getSingleton().remove(
+      material_, Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME);
+}
+
+void QuadObject::choose(const QuadMesh& mesh) {
+  const bool dots = mesh.kind() == MeshKind::kDots;
+  mRenderOp.useIndexes = mesh.kind() == MeshKind::kPieces;
+  mRenderOp.operationType = dots ? Ogre::RenderOperation::OT_POINT_LIST
+                            : mesh.kind() == MeshKind::kLines
+                                ? Ogre::RenderOperation::OT_LINE_LIST
+                                : Ogre::RenderOperation::OT_TRIANGLE_LIST;
+  pass_->setPointSize(dots ? mesh.dotSize() : 1);
+  pass_->setPointSpritesEnabled(dots && pass_->getNumTextureUnitStates() > 0);
 }
 
 void QuadObject::reserve(std::size_t corners) {
@@ -132,6 +155,7 @@ void QuadObject::show(const QuadMesh& mesh) {
   mRenderOp.indexData->indexStart = 0;
   mRenderOp.indexData->indexCount = corners.size() / kCornersAQuad * kIndicesAQuad;
   if (corners.empty()) return;
+  choose(mesh);
   reserve(corners.size());
   mRenderOp.vertexData->vertexBufferBinding->getBuffer(0)->writeData(
       0, sizeof(QuadVertex) * corners.size(), corners.data(), true);
@@ -148,7 +172,7 @@ void QuadObject::show(const QuadMesh& mesh) {
 }
 
 void QuadObject::_updateRenderQueue(Ogre::RenderQueue* queue) {
-  if (mRenderOp.indexData->indexCount > 0) SimpleRenderable::_updateRenderQueue(queue);
+  if (mRenderOp.vertexData->vertexCount > 0) SimpleRenderable::_updateRenderQueue(queue);
 }
 
 Ogre::Real QuadObject::getBoundingRadius() const {

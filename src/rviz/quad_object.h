@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
+#include <OgrePass.h>
 #include <OgreSimpleRenderable.h>
 
 #include "ros/scene/quad_mesh.h"
@@ -11,7 +13,8 @@ namespace split_mapf {
 /// A mesh in the scene: one object, one draw call, however many robots. Of the GUI thread.
 class QuadObject : public Ogre::SimpleRenderable {
  public:
-  QuadObject();
+  /// @param discs  false: the mesh has none, and is drawn without their picture, which is cheaper.
+  explicit QuadObject(bool discs);
   ~QuadObject() override;
 
   /// Shows the mesh in place of the last one. Cost: a copy of it to the graphics card.
@@ -24,6 +27,10 @@ class QuadObject : public Ogre::SimpleRenderable {
 
  private:
   void reserve(std::size_t corners);
+  void choose(const QuadMesh& mesh);
+
+  std::string material_;
+  Ogre::Pass* pass_ = nullptr;  // the material's
 
   std::size_t capacity_ = 0;  // [corners]
 };

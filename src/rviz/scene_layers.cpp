@@ -13,14 +13,20 @@ constexpr std::uint8_t kFirstQueue = Ogre::RENDER_QUEUE_MAIN + 1;
 // [m] Above the map and each other, as far as the depth of a picture tells them apart.
 constexpr float kLift = 0.004F;
 
+bool hasDiscs(SceneLayer layer) {
+  return layer != SceneLayer::kLayout && layer != SceneLayer::kTrails &&
+         layer != SceneLayer::kGoals;
+}
+
 }  // namespace
 
 SceneLayers::SceneLayers(rviz::DisplayContext& context, Ogre::SceneNode* parent)
     : context_(context), parent_(parent) {
   std::uint8_t queue = kFirstQueue;
-  for (Layer& layer : layers_) {
+  for (std::size_t k = 0; k < layers_.size(); ++k) {
+    Layer& layer = layers_[k];
     layer.node = parent_->createChildSceneNode();
-    layer.object = std::make_unique<QuadObject>();
+    layer.object = std::make_unique<QuadObject>(hasDiscs(static_cast<SceneLayer>(k)));
     layer.object->setRenderQueueGroup(queue++);
     layer.node->attachObject(layer.object.get());
   }

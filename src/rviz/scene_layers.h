@@ -17,7 +17,17 @@ class DisplayContext;
 namespace split_mapf {
 
 /// What a display draws, from below to above.
-enum class SceneLayer { kLayout, kRoadmap, kTrails, kGoals, kRobots, kMarks, kDraft, kCount };
+enum class SceneLayer {
+  kLayout,
+  kRoadmap,
+  kTrails,
+  kGoals,
+  kRobots,
+  kWaits,
+  kMarks,
+  kDraft,
+  kCount
+};
 
 /// The display's objects in the scene: one a layer, each where its message's frame has it. Of the
 /// GUI thread.

@@ -65,6 +65,27 @@ TEST_F(Painter, DrawsATrailInAsManyPiecesAsItHasTurns) {
   EXPECT_EQ(pieces(), 0U);
 }
 
+TEST_F(Painter, DrawsDotsAndThinLinesWherePixelsAreLarge) {
+  SceneStyle style;
+  style.pixel_m = 0.5F;
+  paintRobots(at(2.5), style, mesh_);
+  EXPECT_EQ(mesh_.kind(), MeshKind::kDots);
+  EXPECT_EQ(mesh_.corners().size(), 2U);
+  EXPECT_FLOAT_EQ(mesh_.dotSize(), 1.6F);
+  paintTrails(at(2.5), style, mesh_);
+  EXPECT_EQ(mesh_.kind(), MeshKind::kLines);
+  EXPECT_EQ(mesh_.corners().size(), 4U);
+  style.pixel_m = 0.01F;
+  paintRobots(at(2.5), style, mesh_);
+  EXPECT_EQ(mesh_.kind(), MeshKind::kPieces);
+  MultiRobotPlan plan = smallPlan();
+  plan.paths[1].radius = 0.2;
+  const PlanScene several(plan);
+  style.pixel_m = 0.5F;
+  paintRobots({several, fleet_, 0}, style, mesh_);
+  EXPECT_EQ(mesh_.kind(), MeshKind::kPieces);
+}
+
 TEST_F(Painter, ColoursByStateAsTheLegendSays) {
   SceneStyle style;
   style.colour_by = ColourBy::kState;

@@ -15,9 +15,10 @@ void visitStraightRuns(double begin, double end, PointAt point_at, Visit visit) 
   double run_begin = begin;
   double run_dx = 0;
   double run_dy = 0;
+  if (begin >= end) return;
+  auto a = point_at(begin);
   for (double from = begin; from < end;) {
     const double to = std::min(end, std::floor(from) + 1);
-    const auto a = point_at(from);
     const auto b = point_at(to);
     const double dx = (b.x - a.x) / (to - from);
     const double dy = (b.y - a.y) / (to - from);
@@ -29,8 +30,9 @@ void visitStraightRuns(double begin, double end, PointAt point_at, Visit visit) 
       run_dy = dy;
     }
     from = to;
+    a = b;
   }
-  if (run_dx != 0 || run_dy != 0) visit(run_begin, std::max(begin, end));
+  if (run_dx != 0 || run_dy != 0) visit(run_begin, end);
 }
 
 }  // namespace split_mapf

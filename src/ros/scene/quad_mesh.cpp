@@ -28,6 +28,7 @@ void QuadMesh::add(ScenePoint corner, float z, PackedColour colour, float u, flo
 }
 
 void QuadMesh::addDisc(ScenePoint centre, float radius, float z, PackedColour colour) {
+  if (kind_ == MeshKind::kDots) return add(centre, z, colour, kMiddle, kMiddle);
   add({centre.x - radius, centre.y - radius}, z, colour, 0, 0);
   add({centre.x + radius, centre.y - radius}, z, colour, 1, 0);
   add({centre.x + radius, centre.y + radius}, z, colour, 1, 1);
@@ -35,12 +36,17 @@ void QuadMesh::addDisc(ScenePoint centre, float radius, float z, PackedColour co
 }
 
 void QuadMesh::addSquare(ScenePoint centre, float half, float z, PackedColour colour) {
+  if (kind_ == MeshKind::kDots) return add(centre, z, colour, kMiddle, kMiddle);
   addPiece({centre.x - half, centre.y - half}, {centre.x + half, centre.y - half},
            {centre.x + half, centre.y + half}, {centre.x - half, centre.y + half}, z, colour);
 }
 
 void QuadMesh::addBar(ScenePoint from, ScenePoint to, float width, float z,
                       PackedColour from_colour, PackedColour to_colour) {
+  if (kind_ == MeshKind::kLines) {
+    add(from, z, from_colour, kMiddle, kMiddle);
+    return add(to, z, to_colour, kMiddle, kMiddle);
+  }
   const float dx = to.x - from.x;
   const float dy = to.y - from.y;
   const float length = std::hypot(dx, dy);

@@ -16,6 +16,9 @@ constexpr float kGoalAlpha = 0.55F;
 constexpr float kTrailWidth = 0.6F;
 constexpr float kGoalHalf = 0.5F;
 constexpr float kWaitDot = 0.4F;
+// [pixels] Up to here dots and lines of a pixel do.
+constexpr float kMostDot = 24;
+constexpr float kMostThin = 1.8F;
 
 PackedColour colourOfRobot(std::size_t robot) {
   const std_msgs::ColorRGBA colour = colourOf(robot);
@@ -31,6 +34,20 @@ ShownState stateInPlan(const SceneMoment& moment, std::size_t robot) {
     default:
       return ShownState::kMoving;
   }
+}
+
+/// Clears the mesh for what has this share of robots' radii: for dots where all are of one size,
+/// and so small in pixels that a dot is as good.
+void begin(const PlanScene& scene, const SceneStyle& style, float share, QuadMesh& mesh) {
+  mesh.clear();
+  if (style.pixel_m <= 0 || scene.robots() == 0) return;
+  const float radius = shownRadius(scene, 0, style);
+  if (radius > kMostDot / 2 * style.pixel_m) return;
+  for (std::size_t robot = 1; robot < scene.robots(); ++robot) {
+    if (shownRadius(scene, robot, style) != radius) return;
+  }
+  mesh.clear(MeshKind::kDots);
+  mesh.setDotSize(2 * share * radius / style.pixel_m);
 }
 
 }  // namespace
@@ -78,18 +95,29 @@ float shownRadius(const PlanScene& scene, std::size_t robot, const SceneStyle& s
 }
 
 void paintRobots(const SceneMoment& moment, const SceneStyle& style, QuadMesh& mesh) {
+  begin(moment.scene, style, 1, mesh);
   for (std::size_t robot = 0; robot < moment.scene.robots(); ++robot) {
-    const ScenePoint centre = moment.fleet.place(moment.scene, robot, moment.step);
-    const float radius = shownRadius(moment.scene, robot, style);
-    mesh.addDisc(centre, radius, 0, colourOf(moment, robot, style));
-    if (style.waits && stateOf(moment, robot, style.late_sec) == ShownState::kWaiting) {
-      mesh.addDisc(centre, kWaitDot * radius, 0, packed(1, 1, 1));
-    }
+    mesh.addDisc(moment.fleet.place(moment.scene, robot, moment.step),
+                 shownRadius(moment.scene, robot, style), 0, colourOf(moment, robot, style));
+  }
+}
+
+void paintWaits(const SceneMoment& moment, const SceneStyle& style, QuadMesh& mesh) {
+  begin(moment.scene, style, kWaitDot, mesh);
+  for (std::size_t robot = 0; style.waits && robot < moment.scene.robots(); ++robot) {
+    if (stateOf(moment, robot, style.late_sec) != ShownState::kWaiting) continue;
+    mesh.addDisc(moment.fleet.place(moment.scene, robot, moment.step),
+                 kWaitDot * shownRadius(moment.scene, robot, style), 0, packed(1, 1, 1));
   }
 }
 
 void paintTrails(const SceneMoment& moment, const SceneStyle& style, QuadMesh& mesh) {
   const PlanScene& scene = moment.scene;
+  mesh.clear();
+  if (style.pixel_m > 0 && scene.robots() > 0 &&
+      kTrailWidth * shownRadius(scene, 0, style) <= kMostThin * style.pixel_m) {
+    mesh.clear(MeshKind::kLines);
+  }
   const double begin = std::max(0.0, moment.step - style.trail_steps);
   for (std::size_t robot = 0; style.trail_steps > 0 && robot < scene.robots(); ++robot) {
     // Where a robot itself says where it is, the plan's trail would lie.
@@ -110,6 +138,7 @@ void paintTrails(const SceneMoment& moment, const SceneStyle& style, QuadMesh& m
 }
 
 void paintGoals(const SceneMoment& moment, const SceneStyle& style, QuadMesh& mesh) {
+  begin(moment.scene, style, kGoalHalf, mesh);
   for (std::size_t robot = 0; robot < moment.scene.robots(); ++robot) {
     mesh.addSquare(moment.scene.goal(robot), kGoalHalf * shownRadius(moment.scene, robot, style), 0,
                    withAlpha(colourOfRobot(robot), kGoalAlpha));

@@ -21,6 +21,9 @@ struct SceneStyle {
   double trail_steps = 12;
   bool waits = true;    ///< a white dot on robots that wait
   double late_sec = 1;  ///< from here on a robot is late
+  /// [m] that a pixel covers, where the view has one scale; 0: it has not. What is small in pixels
+  /// is drawn as dots and thin lines then.
+  float pixel_m = 0;
 };
 
 /// The colour of a state, as the legend shows it.
@@ -39,8 +42,9 @@ PackedColour colourOf(const SceneMoment& moment, std::size_t robot, const SceneS
 /// [m]
 float shownRadius(const PlanScene& scene, std::size_t robot, const SceneStyle& style);
 
-/// Each adds what it draws of all robots to a mesh. Cost: O(robots), trails O(robots * trail).
+/// Each makes a mesh of what it draws of all robots. Cost: O(robots), trails O(robots * trail).
 void paintRobots(const SceneMoment& moment, const SceneStyle& style, QuadMesh& mesh);
+void paintWaits(const SceneMoment& moment, const SceneStyle& style, QuadMesh& mesh);
 void paintTrails(const SceneMoment& moment, const SceneStyle& style, QuadMesh& mesh);
 void paintGoals(const SceneMoment& moment, const SceneStyle& style, QuadMesh& mesh);
 
