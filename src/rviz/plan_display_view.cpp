@@ -6,6 +6,7 @@
 
 #include <OgreCamera.h>
 #include <rviz/display_context.h>
+#include <rviz/geometry.h>
 #include <rviz/visualization_manager.h>
 #include <QToolTip>
 
@@ -116,7 +117,10 @@ void PlanDisplay::label() {
     Ogre::SceneNode& node = *layers_->node(SceneLayer::kRobots);
     for (std::size_t robot = 0; robot < scene_->robots(); ++robot) {
       const ScenePoint place = fleet_.place(*scene_, robot, timeline_.position());
-      if (!panel->getCamera()->isVisible(node.convertLocalToWorldPosition({place.x, place.y, 0}))) {
+      const Ogre::Vector2 pixel = rviz::project3DPointToViewportXY(
+          panel->getViewport(), node.convertLocalToWorldPosition({place.x, place.y, 0}));
+      if (pixel.x < 0 || pixel.y < 0 || pixel.x > static_cast<float>(panel->width()) ||
+          pixel.y > static_cast<float>(panel->height())) {
         continue;
       }
       if (!labels_->add(shown(scene_->id(robot)), place, kLabelPixels * metres_per_pixel_)) break;

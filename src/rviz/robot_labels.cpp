@@ -1,8 +1,17 @@
 #include "rviz/robot_labels.h"
 
+#include <cstdint>
+
+#include <OgreRenderQueue.h>
 #include <OgreSceneManager.h>
 
 namespace split_mapf {
+namespace {
+
+// Behind the layers of robots, and before what rviz draws over everything.
+constexpr std::uint8_t kAboveRobots = Ogre::RENDER_QUEUE_MAIN + 15;
+
+}  // namespace
 
 RobotLabels::~RobotLabels() {
   for (Label& label : labels_) {
@@ -21,6 +30,7 @@ bool RobotLabels::add(const std::string& text, ScenePoint point, float size) {
                                                            Ogre::ColourValue(0.1F, 0.1F, 0.1F)),
                        caption});
     labels_.back().text->setTextAlignment(rviz::MovableText::H_CENTER, rviz::MovableText::V_ABOVE);
+    labels_.back().text->setRenderQueueGroup(kAboveRobots);
     labels_.back().node->attachObject(labels_.back().text.get());
   }
   Label& label = labels_[used_++];
