@@ -1,6 +1,6 @@
 #pragma once
 
-#include <OgreVector3.h>
+#include <rviz/ogre_helpers/ogre_vector.h>
 
 namespace rviz {
 class VisualizationManager;
