@@ -80,6 +80,8 @@ def compile_flags(database):
                 skip = True
             elif not re.match(r"-D\w+_EXPORTS$", word) and word not in ("-fPIC", "-fPIE"):
                 kept.append(word)
+        # The same for libraries and programs; headers of Qt want it.
+        kept.append("-fPIC")
         file = os.path.realpath(entry["file"])
         is_unit = os.path.basename(os.path.dirname(os.path.dirname(file))) == "units"
         for source in included_sources(file) if is_unit else [file]:
