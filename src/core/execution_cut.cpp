@@ -19,6 +19,19 @@ void appendMoves(const Path& path, std::uint32_t robot, std::uint32_t begin,
   }
 }
 
+/// The steps of the visits from where robots are up to the cut, each once: numbered anew, an
+/// execution that goes on for ever has no large ones.
+std::vector<std::uint32_t> stepsUpTo(const ExecutionGraph& graph, const Cut& cut) {
+  const Precedence& order = graph.precedence();
+  std::vector<std::uint32_t> steps;
+  for (std::uint32_t robot = 0; robot < order.robots(); ++robot) {
+    for (VisitId v = graph.at(robot); v <= cut[robot]; ++v) steps.push_back(order[v].step);
+  }
+  std::sort(steps.begin(), steps.end());
+  steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
+  return steps;
+}
+
 }  // namespace
 
 bool isDownwardClosed(const ExecutionGraph& graph, const Cut& cut) {
@@ -90,22 +103,22 @@ Precedence restBehind(const ExecutionGraph& graph, const Cut& cut) {
 
 ExecutionGraph concatenate(const ExecutionGraph& graph, const Cut& cut, const Plan& plan) {
   const Precedence& order = graph.precedence();
-  std::uint32_t least = 0xffffffffU;
-  std::uint32_t most = 0;
-  for (std::uint32_t robot = 0; robot < order.robots(); ++robot) {
-    least = std::min(least, order[graph.at(robot)].step);
-    most = std::max(most, order[cut[robot]].step);
-  }
+  const std::vector<std::uint32_t> steps = stepsUpTo(graph, cut);
+  const auto rank = [&](std::uint32_t step) {
+    return static_cast<std::uint32_t>(std::lower_bound(steps.begin(), steps.end(), step) -
+                                      steps.begin());
+  };
+  const std::uint32_t begin = steps.empty() ? 0 : rank(steps.back());
   std::vector<Visit> visits;
   for (std::uint32_t robot = 0; robot < order.robots(); ++robot) {
     for (VisitId v = graph.at(robot); v <= cut[robot]; ++v) {
-      visits.push_back({order[v].vertex, robot, order[v].step - least, kNoVisit, kNoVisit});
+      visits.push_back({order[v].vertex, robot, rank(order[v].step), kNoVisit, kNoVisit});
     }
-    appendMoves(plan.paths[robot], robot, most - least, visits);
+    appendMoves(plan.paths[robot], robot, begin, visits);
   }
   for (std::uint32_t robot = order.robots(); robot < plan.paths.size(); ++robot) {
     visits.push_back({plan.paths[robot].front(), robot, 0, kNoVisit, kNoVisit});
-    appendMoves(plan.paths[robot], robot, most - least, visits);
+    appendMoves(plan.paths[robot], robot, begin, visits);
   }
   Precedence joined = Precedence::fromVisits(std::move(visits), order.vertices());
   ExecutionGraph result(std::move(joined), graph.release(), graph.closeMoves());

@@ -111,7 +111,8 @@ void FleetExecution::watch(double now) {
   for (std::uint32_t robot = 0; robot < robots_.size(); ++robot) {
     const Robot& record = robots_[robot];
     const bool silent = now - record.heard > options_.progress_timeout_sec;
-    if (silent && takesPart(robot) && !graph_.isDone(robot)) dropOut(robot, Absence::kSilent);
+    const bool is_needed = options_.rolling || !graph_.isDone(robot);
+    if (silent && takesPart(robot) && is_needed) dropOut(robot, Absence::kSilent);
     if (record.status == DriveStatus::kBlocked && takesPart(robot)) watchBlocked(robot, now);
     const bool stands = !isUnderWay(robot) && promised_[robot] == graph_.at(robot);
     if (record.paused && stands && takesPart(robot)) dropOut(robot, Absence::kPaused);
@@ -210,10 +211,14 @@ void FleetExecution::remove(std::uint32_t robot) {
   openCells();
 }
 
+bool FleetExecution::isJoining(const std::string& id) const {
+  const auto is_it = [&](const Joiner& joiner) { return joiner.id == id; };
+  return std::any_of(joiners_.begin(), joiners_.end(), is_it);
+}
+
 std::string FleetExecution::add(const std::string& id, Vertex at, Vertex goal) {
   if (restoring_) return "the execution is being taken up again; try later";
-  const auto is_joiner = [&](const Joiner& joiner) { return joiner.id == id; };
-  if (find(id) || std::any_of(joiners_.begin(), joiners_.end(), is_joiner)) {
+  if (find(id) || isJoining(id)) {
     return "robot " + quote(id) + " is one of the fleet already";
   }
   const Precedence& order = graph_.precedence();
@@ -222,12 +227,12 @@ std::string FleetExecution::add(const std::string& id, Vertex at, Vertex goal) {
       if (order[v].vertex != at) continue;
       return "its cell is promised to robot " + quote(robots_[robot].id);
     }
-    if (robots_[robot].goal == goal) {
+    if (!options_.rolling && robots_[robot].goal == goal) {
       return "its goal is that of robot " + quote(robots_[robot].id);
     }
   }
   for (const Joiner& joiner : joiners_) {
-    if (joiner.at == at || joiner.goal == goal) {
+    if (joiner.at == at || (!options_.rolling && joiner.goal == goal)) {
       return "its cell or its goal is that of robot " + quote(joiner.id);
     }
   }
@@ -237,7 +242,7 @@ std::string FleetExecution::add(const std::string& id, Vertex at, Vertex goal) {
       if (order[v].vertex == at) return "its cell may be promised to another robot; try again";
     }
   }
-  joiners_.push_back({id, at, goal});
+  joiners_.push_back({id, at, options_.rolling ? kNoVertex : goal});
   incident_ = true;
   closeCells();
   return "";

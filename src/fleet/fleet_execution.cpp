@@ -132,6 +132,8 @@ FleetExecution::FleetExecution(std::shared_ptr<const Grid> grid, std::vector<std
     Robot robot;
     robot.id = std::move(ids[i]);
     robot.goal = order[order.last(i)].vertex;
+    if (options_.rolling) robot.goal = kNoVertex;
+    robot.number = next_number_++;
     robot.planned_sec = costOf(plan.paths[i]) * options.step_sec;
     robot.heard = robot.moved = now;
     for (VisitId v = order.first(i); v <= order.last(i); ++v) {
@@ -162,6 +164,7 @@ FleetExecution::FleetExecution(std::shared_ptr<const Grid> grid, const FleetSnap
       restored_ahead_(snapshot.release_ahead),
       all_paused_(snapshot.all_paused),
       cancelled_(snapshot.cancelled) {
+  options_.rolling = snapshot.rolling;
   const Precedence& order = graph_.precedence();
   for (std::uint32_t i = 0; i < snapshot.robots.size(); ++i) {
     const FleetSnapshot::Robot& kept = snapshot.robots[i];
@@ -169,6 +172,8 @@ FleetExecution::FleetExecution(std::shared_ptr<const Grid> grid, const FleetSnap
     robot.id = kept.id;
     robot.goal = grid_->vertexAt(kept.goal);
     if (robot.goal == kNoVertex) robot.goal = order[order.last(i)].vertex;
+    if (snapshot.rolling) robot.goal = kNoVertex;
+    robot.number = next_number_++;
     robot.planned_sec = kept.planned_sec;
     robot.paused = kept.paused;
     robot.held_at = kept.held_at;
@@ -238,13 +243,14 @@ std::vector<FleetRobotStatus> FleetExecution::status(double now) const {
     status.released_until = sequences_[promised_[robot]];
     status.absence = record.absence;
     status.fault = record.fault;
-    status.arrived = graph_.isDone(robot) && vertexOf(robot) == record.goal;
+    status.idle = options_.rolling && record.goal == kNoVertex;
+    status.arrived = record.reached || (graph_.isDone(robot) && vertexOf(robot) == record.goal);
     status.moves = takesPart(robot) && mayMove(robot);
     const double ends =
         graph_.isDone(robot)
             ? record.moved - began_
             : now - began_ + options_.step_sec * ahead.ends[order.last(robot)] / times_.move;
-    status.late_sec = ends - record.planned_sec;
+    if (!options_.rolling) status.late_sec = ends - record.planned_sec;
     if (graph_.isDone(robot) || mayMove(robot)) continue;
     const std::optional<VisitId> awaited = firstUndone(at + 1);
     if (awaited) status.waits_for = order[*awaited].robot;
@@ -259,6 +265,13 @@ std::optional<VisitId> FleetExecution::firstUndone(VisitId event) const {
     if (!first && !graph_.hasDone(awaited, fraction)) first = awaited;
   });
   return first;
+}
+
+bool FleetExecution::isPromised(std::uint32_t robot, Vertex vertex) const {
+  for (VisitId v = graph_.at(robot); v <= promised_[robot]; ++v) {
+    if (graph_.precedence()[v].vertex == vertex) return true;
+  }
+  return false;
 }
 
 bool FleetExecution::anyMayMove() const {
@@ -291,6 +304,7 @@ std::string FleetExecution::trouble() const {
 bool FleetExecution::isFinished() const {
   if (restoring_ || asked_) return false;
   if (cancelled_) return !anyMayMove();
+  if (options_.rolling) return false;
   if (!options_.plans_anew) return was_advanced_ && !anyMayMove() && !isAnyoneHeld();
   if (robots_.empty() && joiners_.empty()) return true;
   if (std::max(failed_, stalls_) >= kTriesForAPlan && !anyMayMove()) return true;
@@ -312,6 +326,7 @@ FleetSnapshot FleetExecution::snapshot(double now) const {
   kept.release_ahead = std::max(options_.release_ahead, restored_ahead_);
   kept.all_paused = all_paused_;
   kept.cancelled = cancelled_;
+  kept.rolling = options_.rolling;
   for (Vertex v = 0; v < grid_->size(); ++v) {
     if (asked_blocked_[v]) kept.blocked.push_back(grid_->cellOf(v));
   }
@@ -320,7 +335,8 @@ FleetSnapshot FleetExecution::snapshot(double now) const {
     const Robot& record = robots_[robot];
     FleetSnapshot::Robot part;
     part.id = record.id;
-    part.goal = grid_->cellOf(record.goal);
+    const bool is_sent = record.goal != kNoVertex;
+    part.goal = grid_->cellOf(is_sent ? record.goal : order[order.last(robot)].vertex);
     part.planned_sec = record.planned_sec;
     part.paused = record.paused;
     if (isHeld(robot)) part.held_at = sequences_[promised_[robot]];

@@ -15,11 +15,14 @@ namespace {
 constexpr std::uint32_t kMeanwhile = 2;
 /// Robots shall get on between plans made anew, whatever happens.
 constexpr double kBetweenPlansSec = 0.2;
+/// The same for windows of a rolling fleet, which are made in hundredths of a second.
+constexpr double kBetweenWindowsSec = 0.02;
 
 }  // namespace
 
 std::optional<FleetQuestion> FleetExecution::ask(double now) {
   if (asked_ || restoring_ || all_paused_ || cancelled_) return std::nullopt;
+  if (options_.rolling) return askRolling(now);
   if (!options_.plans_anew) return std::nullopt;
   bool goes_on = false;
   for (std::uint32_t robot = 0; robot < robots_.size(); ++robot) {
@@ -37,6 +40,55 @@ std::optional<FleetQuestion> FleetExecution::ask(double now) {
   // What an earlier try could not take out another may, from other places and with another seed.
   if (stalled && questions_ > 0) ++stalls_;
   return makeQuestion(stalled && questions_ > 0);
+}
+
+/// Once a step, and at once when something is new.
+std::optional<FleetQuestion> FleetExecution::askRolling(double now) {
+  if (incident_ ? now < next_anew_ : now < next_replan_ || !hasWork()) return std::nullopt;
+  if (robots_.empty() && joiners_.empty()) return std::nullopt;
+  FleetQuestion question = makeQuestion(true);
+  next_replan_ = now + options_.step_sec;
+  question.asked_sec = now;
+  question.step_sec = options_.step_sec;
+  question.closed = closedCells();
+  for (const Robot& robot : robots_) {
+    question.numbers.push_back(robot.number);
+    question.fresh.push_back(robot.fresh);
+    question.ages.push_back(
+        static_cast<std::uint32_t>(std::max(0.0, now - robot.goal_since) / options_.step_sec));
+  }
+  question_fresh_ = question.fresh;
+  for (Robot& robot : robots_) robot.fresh = false;
+  for (std::uint32_t i = 0; i < question_joiners_; ++i) {
+    question.numbers.push_back(next_number_ + i);
+  }
+  question.fresh.resize(question.numbers.size(), true);
+  question.ages.resize(question.numbers.size(), 0);
+  return question;
+}
+
+/// Whether anybody is sent somewhere, or on its way.
+bool FleetExecution::hasWork() const {
+  for (std::uint32_t robot = 0; robot < robots_.size(); ++robot) {
+    if (!takesPart(robot)) continue;
+    const bool is_sent = robots_[robot].goal != kNoVertex && !robots_[robot].reached;
+    if (is_sent || !graph_.isDone(robot)) return true;
+  }
+  return false;
+}
+
+void FleetExecution::setGoal(std::uint32_t robot, Vertex goal, double now) {
+  Robot& record = robots_[robot];
+  const bool is_there = goal == vertexOf(robot) && !isUnderWay(robot);
+  record.reached = is_there;
+  record.fault = GoalFault::kNone;
+  record.goal_since = now;
+  if (record.goal == goal) return;
+  record.goal = goal;
+  record.fresh = true;
+  // Who stands where it is wanted, or is to stand, needs no plan.
+  if (is_there || (goal == kNoVertex && graph_.isDone(robot))) return;
+  incident_ = true;
 }
 
 FleetQuestion FleetExecution::makeQuestion(bool anew) {
@@ -104,7 +156,7 @@ FleetQuestion FleetExecution::makeQuestion(bool anew) {
 }
 
 bool FleetExecution::isUrgent() const {
-  return asked_ && (!isAwaited() || (incident_ && !asked_anew_));
+  return asked_ && (!isAwaited() || (incident_ && (options_.rolling || !asked_anew_)));
 }
 
 void FleetExecution::take(FleetAnswer answer, double now) {
@@ -112,33 +164,16 @@ void FleetExecution::take(FleetAnswer answer, double now) {
   const bool is_old = answer.version != version_;
   if (is_old) {
     incident_ = incident_ || answer.anew;
+    for (Robot& robot : robots_) robot.fresh = robot.fresh || options_.rolling;
     return;
   }
   ground_ = std::move(answer.ground);
-  next_replan_ = now + options_.replan_period_sec;
+  if (options_.rolling) next_anew_ = now + kBetweenWindowsSec;
+  if (!options_.rolling) next_replan_ = now + options_.replan_period_sec;
   ++replans_;
-  if (answer.anew && !answer.execution) {
-    trouble_ = answer.message;
-    ++failed_;
-    incident_ = true;
-    next_anew_ = now + options_.replan_period_sec;
-    return;
-  }
+  if (answer.anew && !answer.execution) return takeNothing(answer, now);
   rings_ = answer.rings;
-  if (answer.anew) {
-    failed_ = 0;
-    trouble_.clear();
-    // Where cells have opened since, there may be a way by now.
-    const bool is_late = openings_ != question_openings_;
-    for (std::uint32_t robot = 0; robot < robots_.size(); ++robot) {
-      robots_[robot].fault = answer.faults[robot];
-      if (question_void_[robot]) robots_[robot].void_promise = false;
-      if (is_late && answer.faults[robot] != GoalFault::kNone) incident_ = true;
-    }
-    next_anew_ = now + std::min(kBetweenPlansSec, options_.step_sec);
-    // Made in haste: to be improved at once.
-    if (rings_ == 0) next_replan_ = now;
-  }
+  if (answer.anew) takeFaults(answer, now);
   if (!answer.execution) return;
   adopt(std::move(*answer.execution), now);
   for (std::size_t i = 0; i < question_joiners_; ++i) {
@@ -147,6 +182,36 @@ void FleetExecution::take(FleetAnswer answer, double now) {
   }
   closeCells();
   grow(now);
+}
+
+/// There is no plan: it is asked for again.
+void FleetExecution::takeNothing(const FleetAnswer& answer, double now) {
+  trouble_ = answer.message;
+  ++failed_;
+  incident_ = true;
+  next_anew_ = now + (options_.rolling ? options_.step_sec : options_.replan_period_sec);
+  for (std::size_t robot = 0; robot < question_fresh_.size(); ++robot) {
+    if (question_fresh_[robot]) robots_[robot].fresh = true;
+  }
+}
+
+/// Of a plan made anew.
+void FleetExecution::takeFaults(const FleetAnswer& answer, double now) {
+  failed_ = 0;
+  trouble_.clear();
+  // Where cells have opened since, there may be a way by now.
+  const bool is_late = openings_ != question_openings_;
+  for (std::uint32_t robot = 0; robot < robots_.size(); ++robot) {
+    // Of a goal that it has no more.
+    const bool is_over = robots_[robot].fresh;
+    robots_[robot].fault = is_over ? GoalFault::kNone : answer.faults[robot];
+    if (question_void_[robot]) robots_[robot].void_promise = false;
+    if (is_late && answer.faults[robot] != GoalFault::kNone) incident_ = true;
+  }
+  if (options_.rolling) return;
+  next_anew_ = now + std::min(kBetweenPlansSec, options_.step_sec);
+  // Made in haste: to be improved at once.
+  if (rings_ == 0) next_replan_ = now;
 }
 
 /// Goes on with what was planned behind the cut, from where robots are by now.
@@ -195,6 +260,7 @@ void FleetExecution::welcomeJoiners(std::size_t count, double now) {
     Robot robot;
     robot.id = joiners_[i].id;
     robot.goal = joiners_[i].goal;
+    robot.number = next_number_++;
     robot.heard = robot.moved = now;
     robot.planned_sec = now - began_;
     strangers_[joiners_[i].at] = false;

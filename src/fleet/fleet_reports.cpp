@@ -75,11 +75,21 @@ ReportFate FleetExecution::takeProgress(std::uint32_t robot, const RobotReport& 
   const ReportOutcome outcome = graph_.report(robot, target, moves ? report.fraction : 1);
   if (outcome == ReportOutcome::kBackwards) return ReportFate::kBackwards;
   if (outcome != ReportOutcome::kTaken) return ReportFate::kNotReleased;
+  lookForGoal(robot, at);
   if (graph_.at(robot) != at || graph_.progress(robot) != before) {
     robots_[robot].moved = now;
     stalls_ = 0;
   }
   return ReportFate::kTaken;
+}
+
+/// Of a rolling fleet: whether it has come to its goal on its way from the visit where it was.
+void FleetExecution::lookForGoal(std::uint32_t robot, VisitId before) {
+  Robot& record = robots_[robot];
+  if (record.goal == kNoVertex || !options_.rolling) return;
+  for (VisitId v = before + 1; v <= graph_.at(robot); ++v) {
+    if (graph_.precedence()[v].vertex == record.goal) record.reached = true;
+  }
 }
 
 /// A robot that keeps to its route is in a cell that it is promised. Where moves skip cells it may

@@ -85,6 +85,7 @@ void writeExecution(const std::string& path, const FleetSnapshot& snapshot) {
                     {"release_ahead", snapshot.release_ahead},
                     {"paused", snapshot.all_paused},
                     {"cancelled", snapshot.cancelled},
+                    {"rolling", snapshot.rolling},
                     {"blocked", std::move(blocked)},
                     {"robots", std::move(robots)}};
   const std::string text = textOf(path, all);
@@ -118,6 +119,7 @@ std::optional<FleetSnapshot> readExecution(const std::string& path) {
     snapshot.release_ahead = all.at("release_ahead").get<std::uint32_t>();
     snapshot.all_paused = all.at("paused").get<bool>();
     snapshot.cancelled = all.at("cancelled").get<bool>();
+    snapshot.rolling = all.value("rolling", false);
     for (const json& cell : all.at("blocked")) snapshot.blocked.push_back(cellOf(cell));
     for (const json& robot : all.at("robots")) snapshot.robots.push_back(robotOf(robot));
     return snapshot;

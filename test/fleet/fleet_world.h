@@ -29,6 +29,7 @@ inline PlanePoint pointOf(const Grid& grid, Vertex vertex) {
 /// blocked cells, pauses, and a conductor that dies. Positions are watched in continuous time.
 class FleetWorld {
  public:
+  virtual ~FleetWorld() = default;
   /// @param distance_m  that centres keep on a planning graph.
   FleetWorld(std::shared_ptr<const Grid> grid, const Plan& plan, const FleetOptions& options,
              std::uint64_t seed, double distance_m = 0)
@@ -83,6 +84,7 @@ class FleetWorld {
     checker_.next(centres);
     deliverReports();
     fleet_->advance(now_);
+    handOut();
     conductReplans();
     sendRoutes();
   }
@@ -100,7 +102,7 @@ class FleetWorld {
   }
 
   /// The conductor dies, and another one takes over from what it kept last.
-  void restart() {
+  virtual void restart() {
     question_.reset();
     options_.budget.seed += 1000;
     fleet_ = std::make_unique<FleetExecution>(grid_, kept_, options_, now_);
@@ -134,7 +136,13 @@ class FleetWorld {
     return options_.moves ? options_.moves->place(vertex) : pointOf(*grid_, vertex);
   }
 
- private:
+ protected:
+  /// What a conductor does beside its execution, once a tick.
+  virtual void handOut() {}
+  virtual FleetAnswer answerTo(const FleetQuestion& question) {
+    return answerFleet(question, planner_, request_, {});
+  }
+
   RobotMotion motion() {
     RobotMotion motion;
     if (drawBelow(engine_, 2) == 0) motion.acceleration = 2;
@@ -183,7 +191,7 @@ class FleetWorld {
   void conductReplans() {
     if (question_ && question_due_ <= tick_) {
       const std::clock_t began = std::clock();
-      FleetAnswer answer = answerFleet(*question_, planner_, request_, {});
+      FleetAnswer answer = answerTo(*question_);
       const auto took = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
       (question_->anew ? anew_sec_ : improved_sec_).push_back(took);
       fleet_->take(std::move(answer), now_);

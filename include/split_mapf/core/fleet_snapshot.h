@@ -36,6 +36,7 @@ struct FleetSnapshot {
   std::uint32_t release_ahead = 0;
   bool all_paused = false;
   bool cancelled = false;
+  bool rolling = false;  ///< without goals: who gave them has to give them again
   std::vector<Cell> blocked;
   std::vector<Robot> robots;
 };

@@ -26,6 +26,8 @@ struct FleetOptions {
   double progress_timeout_sec = 5;  ///< of silence until a robot counts as lost
   double obstacle_time_sec = 60;    ///< for so long a cell that a robot found blocked is avoided
   std::uint32_t release_ahead = 2;  ///< visits that a robot is promised
+  /// Goals come one by one, see setGoal(); questions are answered by a RollingReplanner.
+  bool rolling = false;
   ReplanBudget budget;
   /// Of a planning graph: then each move has releases of its own, and `release` means nothing; with
   /// it no joint rings. Null: a grid.
@@ -60,6 +62,7 @@ struct FleetRobotStatus {
   std::optional<std::uint32_t> waits_for;  ///< another robot
   double late_sec = 0;                     ///< against the plan it set out with, by the forecast
   bool arrived = false;                    ///< where it is sent
+  bool idle = false;                       ///< of a rolling fleet: it has no goal
   bool moves = false;                      ///< it has leave to go on, and takes part
   Absence absence = Absence::kNone;
   GoalFault fault = GoalFault::kNone;
@@ -74,6 +77,10 @@ struct FleetRobotStatus {
 ///  - one that says kBlocked or kFault gives up what is released to it: it ends at most the move
 ///    that it has begun, and goes on only to visits with numbers above all that it had been sent;
 ///  - reports say what was done, never what will be.
+///
+/// A rolling fleet has no plan to carry out: robots stand until setGoal() sends them, one by one
+/// and again and again. A robot has reached its goal as soon as it has come to it; then it stays,
+/// but makes room for others. Such a fleet ends when it is cancelled only.
 ///
 /// Replans run elsewhere: ask() makes a question at times, whose answer is to be given to take().
 /// Meanwhile robots go on up to the question's cut. Plans made anew replace those that cannot be
@@ -112,6 +119,10 @@ class FleetExecution {
   void pauseAll(bool paused);
   /// Everybody ends what is released, and stays.
   void cancel();
+  /// Of a rolling fleet: sends a robot to a vertex, wherever it was sent before; kNoVertex: it ends
+  /// what is released, and is idle. Robots may have the same goal. The next question is due at
+  /// once.
+  void setGoal(std::uint32_t robot, Vertex goal, double now);
 
   /// Looks for robots that are silent or blocked for too long, and promises what can be.
   void advance(double now);
@@ -132,7 +143,19 @@ class FleetExecution {
   std::vector<std::uint32_t> takeChanged();
   /// Of all robots. Cost: a forecast, O(visits).
   std::vector<FleetRobotStatus> status(double now) const;
-  /// The vertex where a robot was wanted in the first place.
+  /// Whether a robot of a rolling fleet has been at its goal since it was sent there.
+  bool hasReached(std::uint32_t robot) const { return robots_[robot].reached; }
+  /// Whether a robot was added, and takes part with the next plan.
+  bool isJoining(const std::string& id) const;
+  bool isAnyJoining() const { return !joiners_.empty(); }
+  /// Whether a robot is at a vertex, or was promised it.
+  bool isPromised(std::uint32_t robot, Vertex vertex) const;
+  double stepSec() const { return options_.step_sec; }
+  Absence absence(std::uint32_t robot) const { return robots_[robot].absence; }
+  GoalFault fault(std::uint32_t robot) const { return robots_[robot].fault; }
+  /// By vertex: where nobody may be sent now.
+  const std::vector<bool>& closed() const { return closed_; }
+  /// The vertex where a robot was wanted in the first place; kNoVertex: it is idle.
   Vertex goal(std::uint32_t robot) const { return robots_[robot].goal; }
   /// The vertex that it came to last.
   Vertex vertexOf(std::uint32_t robot) const {
@@ -175,6 +198,11 @@ class FleetExecution {
     Vertex came_from = kNoVertex;
     Vertex place = kNoVertex;  ///< where it strayed to
     std::uint32_t next_sequence = 0;
+    // Of a rolling fleet.
+    std::uint32_t number = 0;  ///< its own, whoever leaves
+    double goal_since = 0;
+    bool reached = false;
+    bool fresh = false;                    ///< its goal is new since the last answer
     RobotReport first_report;              ///< while restoring
     std::optional<std::uint32_t> held_at;  ///< likewise, see FleetSnapshot
   };
@@ -190,6 +218,7 @@ class FleetExecution {
   };
 
   // Reports.
+  void lookForGoal(std::uint32_t robot, VisitId before);
   ReportFate takeProgress(std::uint32_t robot, const RobotReport& report, double now);
   ReportFate judgePlace(std::uint32_t robot, const RobotReport& report);
   std::optional<VisitId> visitOf(std::uint32_t robot, std::uint32_t sequence) const;
@@ -230,6 +259,10 @@ class FleetExecution {
   /// Whether a question is out whose answer will be taken: nobody has left since.
   bool isAwaited() const { return asked_ && question_version_ == version_; }
   FleetQuestion makeQuestion(bool anew);
+  std::optional<FleetQuestion> askRolling(double now);
+  bool hasWork() const;
+  void takeNothing(const FleetAnswer& answer, double now);
+  void takeFaults(const FleetAnswer& answer, double now);
   void adopt(ExecutionGraph next, double now);
   bool renumber(std::uint32_t robot, const ExecutionGraph& next, VisitId cut,
                 std::vector<std::uint32_t>& sequences);
@@ -256,6 +289,7 @@ class FleetExecution {
   double observed_ = 0;
   double next_replan_ = 0;
   double next_anew_ = 0;
+  std::uint32_t next_number_ = 0;
   bool incident_ = false;  ///< the rest has to be planned anew
   /// The question that is out: its cut, where robots were, and who stood without a promise.
   bool asked_ = false;
@@ -264,6 +298,7 @@ class FleetExecution {
   Cut question_cut_;
   std::vector<VisitId> question_at_;
   std::vector<bool> question_void_;
+  std::vector<bool> question_fresh_;
   std::size_t question_joiners_ = 0;
   std::uint64_t question_openings_ = 0;
   std::uint64_t openings_ = 0;  ///< times that cells may have been opened

@@ -56,6 +56,14 @@ struct FleetQuestion {
   bool stalled = false;                 ///< nobody has leave to go on
   /// Edges that come too near to robots that take no part, ascending; none on a grid.
   std::vector<Edge> closed_edges = {};
+
+  // Of a rolling fleet.
+  double asked_sec = 0;  ///< on the caller's clock
+  double step_sec = 1;
+  std::vector<bool> closed = {};  ///< by vertex: where nobody may be sent, whoever is there
+  std::vector<std::uint32_t> numbers = {};  ///< by robot, those that join last: stays the same
+  std::vector<bool> fresh = {};             ///< by robot: what it was going to do is of no use
+  std::vector<std::uint32_t> ages = {};     ///< by robot: how long after its goal [steps]
 };
 
 struct FleetAnswer {

@@ -40,6 +40,7 @@ std::string reasonOf(const FleetExecution& fleet, std::uint32_t robot,
 std::uint8_t stateOf(const FleetRobotStatus& status) {
   if (status.arrived) return RobotState::ARRIVED;
   if (status.absence != Absence::kNone) return RobotState::ABSENT;
+  if (status.idle) return RobotState::IDLE;
   if (status.moves) return RobotState::MOVING;
   return status.fault != GoalFault::kNone ? RobotState::NO_WAY : RobotState::WAITING;
 }

@@ -6,20 +6,21 @@
 #include "ros/convert/parameter_reader.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
+#include "split_mapf/pipeline/rolling.h"
 
 namespace split_mapf {
 namespace {
 
 constexpr std::int64_t kMostVisits = 1000;
+constexpr std::int64_t kMostTasks = 1000000;
 constexpr double kMostSeconds = 1e9;
 // Robots stand, or run out of promises, while they wait for a plan.
 constexpr double kTimeLimitSec = 10;
 
 // Of the planner node, without a meaning here: a fleet is planned anew for the sum of costs, with
-// the step and the clearance of the plan that it carries out.
-constexpr std::array<const char*, 8> kOfPlannerAlone = {
-    "objective",     "step_duration",    "robot_speed",   "clearance",
-    "snap_distance", "max_queued_goals", "publish_paths", "fill_poses"};
+// the clearance of the plan that it carries out.
+constexpr std::array<const char*, 6> kOfPlannerAlone = {
+    "objective", "clearance", "snap_distance", "max_queued_goals", "publish_paths", "fill_poses"};
 
 bool readChoice(ParameterReader& reader, const std::string& name, const char* yes, const char* no,
                 bool chosen) {
@@ -47,6 +48,13 @@ void readAll(ParameterReader& reader, FleetServerOptions& options) {
   options.route_ahead = static_cast<std::uint32_t>(
       reader.readInteger("route_ahead", options.route_ahead, {0, kMostVisits}));
   reader.read("execution_file", options.execution_file);
+  options.window = static_cast<std::uint32_t>(
+      reader.readInteger("window", options.window, {1, RollingOptions::kMostWindow}));
+  options.max_active = static_cast<std::uint32_t>(
+      reader.readInteger("max_active", options.max_active, {0, kMostTasks}));
+  options.max_tasks = static_cast<std::uint32_t>(
+      reader.readInteger("max_tasks", options.max_tasks, {1, kMostTasks}));
+  reader.read("join_reporting", options.join_reporting);
 }
 
 }  // namespace
@@ -77,7 +85,7 @@ std::vector<std::string> findUnknownFleetParameters(const XmlRpc::XmlRpcValue& p
   readAll(reader, ignored);
   const std::vector<std::string> not_of_fleet = reader.unreadNames();
   const auto is_of_fleet = [&](const std::string& name) {
-    return name == "execute" ||
+    return name == "execute" || name == "move" ||
            std::find(not_of_fleet.begin(), not_of_fleet.end(), name) == not_of_fleet.end();
   };
   unknown.erase(std::remove_if(unknown.begin(), unknown.end(), is_of_fleet), unknown.end());

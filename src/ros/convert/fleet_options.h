@@ -18,6 +18,11 @@ struct FleetServerOptions {
   double robot_radius_m = 0;       ///< 0: unknown; what suits any robot that fits into a cell
   double replan_budget_sec = 1;    ///< that the rest of a plan is improved at most
   std::uint32_t route_ahead = 20;  ///< visits that are sent beyond those released
+  // Of ~move.
+  std::uint32_t window = 20;        ///< [steps] that are planned ahead
+  std::uint32_t max_active = 0;     ///< robots that are under way to goals at a time; 0: no limit
+  std::uint32_t max_tasks = 20000;  ///< that are not over; goals with more are rejected
+  bool join_reporting = true;       ///< robots that report join by themselves
   /// Where the execution is kept for the next start; empty: nowhere.
   std::string execution_file;
 };

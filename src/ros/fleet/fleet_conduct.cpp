@@ -39,6 +39,7 @@ void FleetServer::takeProgress(const RobotProgress& message) {
   const double time = now();
   Known& known = known_[message.robot_id];
   known.heard = time;
+  known.status = message.status;
   const std::optional<Cell> place = placeOf(message.pose);
   if (!message.pose.header.frame_id.empty()) known.pose = message.pose;
   if (place) known.place = place;
@@ -127,7 +128,9 @@ void FleetServer::tick() {
   beginWhenReady(time);
   if (!fleet_) return;
   if (index_.size() == fleet_->robots()) closeCells();
+  if (tasks_) joinReporting(time);
   fleet_->advance(time);
+  if (tasks_) conductTasks(time);
   askLocked(time);
   keepLocked(time);
   publishRoutes(time);
@@ -146,19 +149,22 @@ void FleetServer::askLocked(double time) {
   if (replanner_.joinable()) replanner_.join();
   replans_ = true;
   hurry_ = std::make_shared<StopFlag>();
-  replanner_ = std::thread([this, epoch = epoch_, hurry = hurry_,
-                            question = std::move(*question)]() { replan(question, epoch, hurry); });
+  replanner_ = std::thread(
+      [this, windows = replanner_of_windows_, epoch = epoch_, hurry = hurry_,
+       question = std::move(*question)]() { replan(question, windows.get(), epoch, hurry); });
 }
 
 /// In a thread of its own.
-void FleetServer::replan(const FleetQuestion& question, std::uint64_t epoch,
-                         const std::shared_ptr<StopFlag>& hurry) {
+void FleetServer::replan(const FleetQuestion& question, RollingReplanner* windows,
+                         std::uint64_t epoch, const std::shared_ptr<StopFlag>& hurry) {
   const ros::WallTime begin = ros::WallTime::now();
   FleetAnswer answer;
   const PlanRequest& request = options_.server.goal.plan;
-  const double limit = question.anew ? request.time_limit_sec : options_.replan_budget_sec;
+  const bool is_mended = question.anew && windows == nullptr;
+  const double limit = is_mended ? request.time_limit_sec : options_.replan_budget_sec;
   try {
-    answer = answerFleet(question, planner_, request, Deadline(limit, hurry));
+    answer = windows != nullptr ? windows->answer(question, Deadline(limit, hurry))
+                                : answerFleet(question, planner_, request, Deadline(limit, hurry));
   } catch (const std::exception& error) {
     answer.version = question.version;
     answer.anew = question.anew;
@@ -226,7 +232,15 @@ void FleetServer::publishState(double time) {
   for (const RobotFault& fault : faults_) {
     if (const auto robot = fleet_->find(fault.robot_id)) status[*robot].arrived = false;
   }
-  state_.publish(stateMessage(*fleet_, status, *grid_, plan_id_, ros::Time::now()));
+  FleetState message = stateMessage(*fleet_, status, *grid_, plan_id_, ros::Time::now());
+  counts_.fullness = static_cast<double>(fleet_->robots()) / std::max(1U, grid_->grid->size());
+  message.fullness = static_cast<float>(counts_.fullness);
+  if (tasks_) {
+    message.active = tasks_->active();
+    message.waiting = static_cast<std::uint32_t>(tasks_->waiting());
+    message.max_active = options_.max_active;
+  }
+  state_.publish(message);
   ExecutePlanFeedback feedback;
   counts_.arrived = counts_.absent = counts_.without_way = 0;
   feedback.late = -planned_sec_;
@@ -240,6 +254,7 @@ void FleetServer::publishState(double time) {
   feedback.arrived = counts_.arrived;
   feedback.waiting = fleet_->robots() - feedback.arrived - feedback.moving;
   if (goal_) goal_->publishFeedback(feedback);
+  if (moves_) moves_->publishFeedback();
 }
 
 FleetServerStatus FleetServer::status() const {
@@ -251,6 +266,13 @@ FleetServerStatus FleetServer::status() const {
   status.robots = fleet_->robots() + static_cast<std::uint32_t>(left_out_.size());
   status.rings = fleet_->rings();
   status.replans = fleet_->replans();
+  status.rolling = tasks_ != nullptr;
+  if (tasks_) {
+    status.goals = moves_->size();
+    status.active = tasks_->active();
+    status.waiting = tasks_->waiting();
+    status.max_active = options_.max_active;
+  }
   if (!fleet_->trouble().empty()) status.trouble = fleet_->trouble();
   return status;
 }

@@ -3,6 +3,12 @@
 #include "core/resident_memory.h"
 
 namespace split_mapf {
+namespace {
+
+// Share of the cells from which on throughput falls, whatever is planned.
+constexpr double kCrowded = 0.4;
+
+}  // namespace
 
 FleetDiagnostics::FleetDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                                    const FleetServer& server)
@@ -25,14 +31,24 @@ void FleetDiagnostics::fill(diagnostic_updater::DiagnosticStatusWrapper& status)
     status.summary(DiagnosticStatus::WARN, "waits for all robots to report after a restart");
   } else if (now.absent + now.without_way > 0) {
     status.summary(DiagnosticStatus::WARN, "robots take no part or have no way, see ~state");
+  } else if (now.rolling && now.fullness > kCrowded) {
+    status.summary(
+        DiagnosticStatus::WARN,
+        "robots stand on more than 40 % of the free cells, which slows all of them down; "
+        "see parameter ~max_active");
   } else {
-    status.summary(DiagnosticStatus::OK, "executing");
+    status.summary(DiagnosticStatus::OK, now.rolling ? "conducting" : "executing");
   }
   status.add("plan", now.plan_id);
   status.add("robots", now.robots);
   status.add("robots arrived", now.arrived);
   status.add("robots that take no part", now.absent);
   status.add("robots without a way", now.without_way);
+  status.add("goals", now.goals);
+  status.add("robots with a goal", now.active);
+  status.add("robots with a goal at most", now.max_active);
+  status.add("tasks that wait", now.waiting);
+  status.addf("share of cells with robots", "%.3f", now.fullness);
   status.add("rings that stay", now.rings);
   status.add("replans", now.replans);
   status.addf("last replan [s]", "%.3f", now.last_replan_sec);

@@ -23,6 +23,8 @@ namespace split_mapf {
 namespace {
 
 constexpr double kTickSec = 0.1;
+// Between looks for goals of ~move that are new.
+constexpr double kPulseSec = 0.02;
 constexpr std::uint32_t kQueue = 20000;  // messages: two seconds of a thousand robots
 
 PlanningGrid latestGrid(const MapSource& maps, const GoalOptions& options) {
@@ -73,6 +75,12 @@ FleetServer::FleetServer(const ros::NodeHandle& node, const ros::NodeHandle& pri
       own, "execute", [this](const Goal& goal) { takeGoal(goal); },
       [this](const Goal& goal) { takeCancel(goal); }, false);
   server_->start();
+  pulse_ = own.createWallTimer(ros::WallDuration(kPulseSec),
+                               [this](const ros::WallTimerEvent&) { pulse(); });
+  move_ = std::make_unique<MoveAction>(
+      own, [this](const MoveAction::Goal& goal) { takeMove(goal); },
+      [this](const MoveAction::Goal& goal) { takeMoveCancel(goal); });
+  move_->start();
 }
 
 FleetServer::~FleetServer() {
@@ -82,6 +90,7 @@ FleetServer::~FleetServer() {
 
 void FleetServer::shutdown() {
   timer_.stop();
+  pulse_.stop();
   stop_->request();
   const Lock lock(mutex_);
   hurry_->request();
@@ -92,6 +101,7 @@ void FleetServer::shutdown() {
   if (waiting_) waiting_->goal.setCanceled(result, result.message);
   goal_.reset();
   waiting_.reset();
+  if (moves_) moves_->cancelAll(result.message);
 }
 
 /// ROS time without its jumps back; it stands where a simulated clock stands.
@@ -119,11 +129,16 @@ void FleetServer::takeGoal(Goal goal) {
       throw GoalError(Outcome::kServerBusy,
                       "a plan is being executed; cancel that goal, or wait for its end");
     }
+    if (tasks_ && !tasks_->isEmpty()) {
+      throw GoalError(Outcome::kServerBusy, "robots have goals of ~move, " +
+                                                counted(moves_->size(), "goal") +
+                                                "; cancel them, or wait for their ends");
+    }
     // The plan may be the one that was under way when this node ended, and come before the first
     // tick.
     if (!fleet_) takeUpAgain(now());
     const MultiRobotPlan& plan = goal.getGoal()->plan;
-    if (fleet_ && !fleet_->isCancelled() && isTheSame(plan)) {
+    if (fleet_ && !tasks_ && !fleet_->isCancelled() && isTheSame(plan)) {
       goal.setAccepted();
       goal_ = goal;
       return;
@@ -303,6 +318,7 @@ void FleetServer::takeUpAgain(double now) {
       planned_sec_ = std::max(planned_sec_, robot.planned_sec);
     }
     ++epoch_;
+    if (kept->rolling) startTasks();
     ROS_WARN("taking up again the execution of %s that was under way when this node ended",
              counted(kept->robots.size(), "robot").c_str());
   } catch (const GoalError&) {
@@ -372,6 +388,10 @@ void FleetServer::end(const ExecutePlanResult& result) {
   if (goal_ && !arrived && !cancelled) goal_->setAborted(result, result.message);
   ROS_INFO("the execution ended after %.1f s: %s", result.duration, result.message.c_str());
   goal_.reset();
+  if (moves_) moves_->cancelAll(result.message);
+  moves_.reset();
+  tasks_.reset();
+  replanner_of_windows_.reset();
   fleet_.reset();
   plan_id_.clear();
   index_.clear();

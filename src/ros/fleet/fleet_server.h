@@ -27,7 +27,11 @@
 #include "ros/convert/map_source.h"
 #include "ros/convert/pose_transformer.h"
 #include "ros/fleet/disc_parts.h"
+#include "ros/fleet/move_action.h"
+#include "ros/fleet/move_goals.h"
 #include "split_mapf/fleet/fleet_execution.h"
+#include "split_mapf/fleet/fleet_tasks.h"
+#include "split_mapf/fleet/rolling_replan.h"
 #include "split_mapf/ros/outcome.h"
 #include "split_mapf/ros/planning_grid.h"
 
@@ -48,13 +52,20 @@ struct FleetServerStatus {
   std::uint64_t refused = 0;    ///< reports that cannot be
   std::uint64_t of_others = 0;  ///< of robots or plans that are not executed
   std::string last_refused;
-  std::string trouble;  ///< why something cannot be done; empty: nothing is wrong
+  // Of ~move.
+  bool rolling = false;
+  std::size_t goals = 0;     ///< that are not over
+  std::uint32_t active = 0;  ///< robots that have a goal and go there
+  std::uint32_t max_active = 0;
+  std::size_t waiting = 0;  ///< tasks that do not begin yet
+  double fullness = 0;      ///< share of the free cells on which robots stand
+  std::string trouble;      ///< why something cannot be done; empty: nothing is wrong
 };
 
 /// The ROS side of FleetExecution: translates messages, tells the time, keeps the execution in a
-/// file. Action ~execute; topics `progress` (in), <robot>/route (latched), ~routes (those of all
-/// robots; who subscribes is sent the present ones), ~state; services ~block_cells, ~remove_robot,
-/// ~add_robot, ~pause. Thread-safe.
+/// file. Actions ~execute, and ~move where no plan is executed; topics `progress` (in),
+/// <robot>/route (latched), ~routes (those of all robots; who subscribes is sent the present ones),
+/// ~state; services ~block_cells, ~remove_robot, ~add_robot, ~pause. Thread-safe.
 class FleetServer {
  public:
   /// @pre all outlive this object.
@@ -79,6 +90,7 @@ class FleetServer {
     double heard = 0;
     geometry_msgs::PoseStamped pose;  ///< the last one; an empty frame: it gave none
     std::optional<Cell> place;        ///< on the present grid
+    std::uint8_t status = RobotProgress::OK;
   };
   /// A plan that is right, and waits for its robots to report, or for an older one to end.
   struct Waiting {
@@ -112,6 +124,19 @@ class FleetServer {
   void end(const ExecutePlanResult& result);
   void refuse(Goal& goal, const GoalError& error) const;
 
+  // The action ~move: a rolling fleet, which robots join as they report.
+  void takeMove(MoveAction::Goal goal);
+  void takeMoveCancel(const MoveAction::Goal& goal);
+  void roll(double now);
+  void startTasks();
+  bool hasNewMap() const;
+  void joinReporting(double now);
+  MoveTask readTask(const RobotTask& task, std::size_t index, bool is_twice, double now);
+  std::optional<RobotFault> faultOfRobot(const RobotTask& task, const std::string& name,
+                                         double now);
+  void conductTasks(double now);
+  void pulse();
+
   // Robots.
   void takeProgress(const RobotProgress& message);
   std::optional<Cell> placeOf(const geometry_msgs::PoseStamped& pose) const;
@@ -126,11 +151,14 @@ class FleetServer {
   bool addRobot(AddRobot::Request& request, AddRobot::Response& response);
   bool pauseRobots(PauseRobots::Request& request, PauseRobots::Response& response);
   std::string tryToAdd(const RobotTask& task);
+  std::string tryToEnlist(const RobotTask& task, const Known& known);
+  std::string tryToJoin(const RobotTask& task, const Known& known);
 
   // As time goes by.
   void tick();
   void askLocked(double now);
-  void replan(const FleetQuestion& question, std::uint64_t epoch,
+  /// @param windows  null: of a fleet that carries out a plan.
+  void replan(const FleetQuestion& question, RollingReplanner* windows, std::uint64_t epoch,
               const std::shared_ptr<StopFlag>& hurry);
   void keepLocked(double now);
   void publishRoutes(double now);
@@ -167,6 +195,12 @@ class FleetServer {
   std::uint64_t kept_version_ = 0;
   std::set<std::uint32_t> blocked_;  ///< cells, as in RobotPath.cells
   std::map<std::string, Known> known_;
+  // Of a rolling fleet, null of another one.
+  std::shared_ptr<RollingReplanner> replanner_of_windows_;
+  std::unique_ptr<FleetTasks> tasks_;
+  std::unique_ptr<MoveGoals> moves_;
+  std::shared_ptr<const nav_msgs::OccupancyGrid> rolls_on_;  ///< the map
+  std::set<std::string> removed_;               ///< robots that join again when they are added only
   std::map<std::string, std::uint32_t> index_;  ///< of the fleet's robots
   FleetServerStatus counts_;
   double clock_ = 0;
@@ -179,11 +213,13 @@ class FleetServer {
   ros::Subscriber progress_;
   std::vector<ros::ServiceServer> services_;
   ros::WallTimer timer_;
+  ros::WallTimer pulse_;
   std::shared_ptr<StopFlag> stop_;
   std::shared_ptr<StopFlag> hurry_;  ///< of the replan that runs
   std::thread replanner_;
   bool replans_ = false;
   std::unique_ptr<Server> server_;
+  std::unique_ptr<MoveAction> move_;
 };
 
 }  // namespace split_mapf

@@ -55,6 +55,7 @@ bool FleetServer::removeRobot(RemoveRobot::Request& request, RemoveRobot::Respon
     response.message = "the execution is being taken up again; try later";
     return true;
   }
+  removed_.insert(request.robot_id);
   fleet_->remove(*robot);
   index_.clear();
   response.message = "robot " + quote(request.robot_id) + " is off the floor";
@@ -71,7 +72,14 @@ bool FleetServer::addRobot(AddRobot::Request& request, AddRobot::Response& respo
 
 /// @return why not; empty: done.
 std::string FleetServer::tryToAdd(const RobotTask& task) {
-  if (!fleet_) return "no plan is being executed";
+  if (!fleet_ && !waiting_) {
+    try {
+      roll(now());
+    } catch (const GoalError& error) {
+      return std::string("there is no fleet to join: ") + error.what();
+    }
+  }
+  if (!fleet_) return "a plan waits for its robots";
   if (discs_) return "robots that have size cannot join a plan yet";
   const std::string fault = faultOfRobotId(task.robot_id);
   if (!fault.empty()) return "its robot_id " + fault;
@@ -79,6 +87,7 @@ std::string FleetServer::tryToAdd(const RobotTask& task) {
   const bool reports =
       known != known_.end() && now() - known->second.heard <= options_.fleet.progress_timeout_sec;
   if (!reports) return "robot " + quote(task.robot_id) + " does not report";
+  if (tasks_) return tryToEnlist(task, known->second);
   const auto cell_of = [this](const geometry_msgs::PoseStamped& pose) -> std::optional<Cell> {
     const geometry_msgs::Point& at = pose.pose.position;
     if (!std::isfinite(at.x) || !std::isfinite(at.y)) return Cell{-1, -1};
@@ -102,6 +111,25 @@ std::string FleetServer::tryToAdd(const RobotTask& task) {
     return error.what();
   }
   return fleet_->add(task.robot_id, at, to);
+}
+
+/// Of a rolling fleet: a goal is a task of nobody's.
+std::string FleetServer::tryToEnlist(const RobotTask& task, const Known& known) {
+  if (fleet_->find(task.robot_id) || fleet_->isJoining(task.robot_id)) {
+    return "robot " + quote(task.robot_id) + " is one of the fleet already";
+  }
+  MoveTask read;
+  if (!task.goal.header.frame_id.empty()) {
+    RobotTask unnamed = task;
+    unnamed.robot_id.clear();
+    read = readTask(unnamed, 0, false, now());
+    if (read.fault) return read.fault->message;
+  }
+  const std::string why = tryToJoin(task, known);
+  if (!why.empty()) return why;
+  removed_.erase(task.robot_id);
+  if (read.goal != kNoVertex) tasks_->add(task.robot_id, read.goal, now());
+  return "";
 }
 
 bool FleetServer::pauseRobots(PauseRobots::Request& request, PauseRobots::Response& response) {
