@@ -51,6 +51,10 @@ std::optional<FleetQuestion> FleetExecution::askRolling(double now) {
   question.asked_sec = now;
   question.step_sec = options_.step_sec;
   question.closed = closedCells();
+  // Those that join make room like all others.
+  for (std::size_t i = 0; i < question_joiners_; ++i) {
+    question.closed[joiners_[i].at] = asked_blocked_[joiners_[i].at];
+  }
   for (const Robot& robot : robots_) {
     question.numbers.push_back(robot.number);
     question.fresh.push_back(robot.fresh);

@@ -172,7 +172,7 @@ void FleetTasks::match(FleetExecution& fleet, double now) {
   for (auto next = unclaimed_.begin(); next != unclaimed_.end();) {
     const auto [number, goal] = *next++;
     const auto task = tasks_.find(number);
-    if (closed[goal]) {
+    if (all_are_there && closed[goal]) {
       finish(task, TaskEnd::kGoalBlocked);
     } else if (all_are_there && !has_robots[parts[goal]]) {
       finish(task, TaskEnd::kNoWay);

@@ -145,6 +145,20 @@ TEST(RollingFleet, LetsATaskWaitForTheFirstRobotThatJoins) {
   EXPECT_EQ(world.ends_[task].robot, "first");
 }
 
+TEST(RollingFleet, SendsARobotToWhereOneStandsThatIsJoining) {
+  const auto grid = test::gridFromAscii(kHall);
+  RollingWorld world(grid, {}, rollingOptions(), 1);
+  for (const auto& [id, x] : {std::pair<std::string, int>("a", 0), {"b", 5}}) {
+    world.bodies_.emplace_back(test::pointOf(*grid, at(world, x, 4)), RobotMotion(), id);
+    EXPECT_EQ(world.fleet_->add(id, at(world, x, 4), kNoVertex), "");
+  }
+  const std::uint64_t task = world.send("a", at(world, 5, 4));
+  const std::uint64_t other = world.send("", at(world, 0, 4));
+  ASSERT_TRUE(world.runUntilDone(600));
+  EXPECT_EQ(world.ends_[task].end, TaskEnd::kArrived);
+  EXPECT_EQ(world.ends_[other].end, TaskEnd::kArrived);
+}
+
 TEST(RollingFleet, TakesInARobotThatJoins) {
   Hall hall(2);
   hall.world.send("r0", at(hall.world, 11, 5));

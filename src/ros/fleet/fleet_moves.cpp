@@ -26,6 +26,15 @@ std::string whoIs(const RobotTask& task, std::size_t index) {
   return task.robot_id.empty() ? "task " + std::to_string(index) : "robot " + quote(task.robot_id);
 }
 
+/// Whether all robots stand where they were sent last.
+bool isAtRest(const FleetExecution& fleet) {
+  for (std::uint32_t robot = 0; robot < fleet.robots(); ++robot) {
+    const VisitId at = fleet.graph().at(robot);
+    if (fleet.promised()[robot] > at || fleet.graph().progress(robot) > 0) return false;
+  }
+  return true;
+}
+
 bool isFinite(const geometry_msgs::PoseStamped& pose) {
   return std::isfinite(pose.pose.position.x) && std::isfinite(pose.pose.position.y);
 }
@@ -90,7 +99,9 @@ void FleetServer::roll(double now) {
   if (goal_ || waiting_ || (fleet_ && (!tasks_ || fleet_->isCancelled()))) {
     throw GoalError(Outcome::kServerBusy, "a plan is being executed; wait for its end");
   }
-  if (fleet_ && (!tasks_->isEmpty() || replans_ || !hasNewMap())) return;
+  const bool is_busy =
+      fleet_ && (fleet_->isRestoring() || !tasks_->isEmpty() || replans_ || !isAtRest(*fleet_));
+  if (is_busy || (fleet_ && !hasNewMap())) return;
   const auto map = maps_.choose(std::make_shared<const nav_msgs::OccupancyGrid>());
   const GoalOptions& goal = options_.server.goal;
   PlanningGrid grid = makePlanningGrid(*map, goal.occupancy, goal.ignore_specks);
@@ -104,7 +115,6 @@ void FleetServer::roll(double now) {
   moves_.reset();
   tasks_.reset();
   changeGrid(grid);
-  rolls_on_ = map;
   fleet_ = std::make_unique<FleetExecution>(grid_->grid, std::vector<std::string>(), Plan(),
                                             options, now);
   const ros::WallTime stamp = ros::WallTime::now();
@@ -121,6 +131,7 @@ void FleetServer::roll(double now) {
 }
 
 void FleetServer::startTasks() {
+  rolls_on_ = maps_.choose(std::make_shared<const nav_msgs::OccupancyGrid>());
   RollingOptions options;
   options.window = options_.window;
   options.seed = options_.server.goal.plan.seed;
