@@ -1,6 +1,7 @@
 #include "ros/fleet/move_action.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include <actionlib_msgs/GoalStatusArray.h>
 #include <split_mapf/PlanOutcome.h>

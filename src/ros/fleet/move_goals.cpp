@@ -1,6 +1,7 @@
 #include "ros/fleet/move_goals.h"
 
 #include <array>
+#include <string>
 #include <utility>
 
 #include "split_mapf/core/wording.h"
