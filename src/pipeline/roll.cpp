@@ -16,7 +16,7 @@
 namespace split_mapf {
 namespace {
 
-// What a step with a limit of time is cut into, and the ways whose lengths are found.
+// What a step with a limit of time is cut into, and the goals to which distances are found.
 constexpr std::uint64_t kBudget = 2000;
 constexpr std::size_t kMostWays = 2000;
 
@@ -45,8 +45,7 @@ class RollRun {
         planner_(grid, options.rolling),
         checker_(grid),
         source_(*grid, task, options.rolling.seed),
-        since_(task.starts.size(), 0),
-        from_(task.starts) {
+        since_(task.starts.size(), 0) {
     report_.reached.resize(task.starts.size());
     for (std::uint32_t robot = 0; robot < task.starts.size(); ++robot) {
       RollingRobot entry;
@@ -137,11 +136,9 @@ class RollRun {
       report_.reached[robot].push_back({t, goal});
       if (t > options_.warmup) {
         service_.push_back(t - since_[robot]);
-        ways_.emplace_back(from_[robot], goal);
       }
       report_.longest_wait = std::max(report_.longest_wait, t - since_[robot]);
       since_[robot] = t;
-      from_[robot] = goal;
       entry.goals.erase(entry.goals.begin());
       refill(robot);
     }
@@ -167,19 +164,37 @@ class RollRun {
     report_.service_median = service_[service_.size() / 2];
     report_.service_p99 = service_[service_.size() * 99 / 100];
     report_.service_max = service_.back();
-    report_.free_flow_share = report_.throughput * meanWay() / question_.robots.size();
+    report_.free_flow_share = freeFlowShare();
   }
 
-  /// Of some goals all through the run: each length is a search.
-  double meanWay() const {
-    const std::size_t stride = (ways_.size() + kMostWays - 1) / kMostWays;
-    double sum = 0;
-    std::size_t measured = 0;
-    for (std::size_t i = 0; i < ways_.size(); i += stride, ++measured) {
-      const DistanceTable table(grid_->graph(), ways_[i].second, DistanceExtent::kOnDemand);
-      sum += table(ways_[i].first);
+  /// Of some robots: each goal is a search.
+  double freeFlowShare() const {
+    std::size_t goals = 0;
+    for (const std::vector<ReachedGoal>& reached : report_.reached) goals += reached.size() + 1;
+    const std::size_t stride = (goals + kMostWays - 1) / kMostWays;
+    std::int64_t gained = 0;
+    std::int64_t taken = 0;
+    for (std::size_t robot = 0; robot < report_.paths.size(); robot += stride) {
+      std::uint32_t begin = 0;
+      for (const ReachedGoal& goal : report_.reached[robot]) {
+        addGain(report_.paths[robot], goal.goal, begin, goal.step, gained, taken);
+        begin = goal.step;
+      }
+      const std::vector<Vertex>& ahead = question_.robots[robot].goals;
+      if (ahead.empty()) continue;
+      addGain(report_.paths[robot], ahead.front(), begin, report_.steps, gained, taken);
     }
-    return sum / static_cast<double>(measured);
+    return taken == 0 ? 0 : static_cast<double>(gained) / static_cast<double>(taken);
+  }
+
+  /// How much nearer to the goal a part of a path has come, as far as it is counted.
+  void addGain(const Path& path, Vertex goal, std::uint32_t begin, std::uint32_t end,
+               std::int64_t& gained, std::int64_t& taken) const {
+    begin = std::max(begin, options_.warmup);
+    if (begin >= end) return;
+    const DistanceTable left(grid_->graph(), goal, DistanceExtent::kOnDemand);
+    gained += std::int64_t{left(path[begin])} - std::int64_t{left(path[end])};
+    taken += end - begin;
   }
 
   void countTurns() {
@@ -208,11 +223,9 @@ class RollRun {
   RollingQuestion question_;
   RollReport report_;
   std::vector<std::uint32_t> since_;  // by robot: the step of its last goal
-  std::vector<Vertex> from_;          // by robot: its last goal
   std::vector<Vertex> before_;
   std::vector<Vertex> now_;
   std::vector<std::uint32_t> service_;
-  std::vector<std::pair<Vertex, Vertex>> ways_;
   std::uint64_t busy_steps_ = 0;
   std::uint64_t standing_ = 0;
   double cpu_ms_ = 0;

@@ -41,9 +41,11 @@ struct ReachedGoal {
 struct RollReport {
   std::uint32_t steps = 0;  ///< that were done: fewer than asked for when the deadline expired
   std::uint64_t goals_reached = 0;
-  double throughput = 0;       ///< goals a step
-  double free_flow_share = 0;  ///< throughput, over that of robots that never wait for others
-  double service_mean = 0;     ///< [steps] from goal to goal
+  double throughput = 0;  ///< goals a step
+  /// Steps that robots with goals came nearer by, over all their steps: 1 where nobody ever waits
+  /// for others or makes a detour. With these goals more than throughput / share cannot be.
+  double free_flow_share = 0;
+  double service_mean = 0;  ///< [steps] from goal to goal
   std::uint32_t service_median = 0;
   std::uint32_t service_p99 = 0;
   std::uint32_t service_max = 0;
