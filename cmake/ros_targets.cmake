@@ -56,8 +56,17 @@ else()
   message(STATUS "libmosquitto is not here: vda5050_bridge_node is left out")
 endif()
 
+# An example of what conducts a fleet from above, in C++; in Python it is examples/warehouse_manager.py.
+add_executable(warehouse_manager examples/warehouse_manager.cpp)
+#catkin_lint: ignore_once external_interface_path
+target_include_directories(warehouse_manager SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
+target_link_libraries(warehouse_manager PRIVATE ${catkin_LIBRARIES})
+add_dependencies(warehouse_manager ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
+split_mapf_compile_options(warehouse_manager)
+install(TARGETS warehouse_manager RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+
 catkin_install_python(PROGRAMS scripts/plan_client.py scripts/check_distances.py scripts/fleet_client.py
-  scripts/resolve_bag.py scripts/route_driver.py scripts/start_rviz.py
+  scripts/resolve_bag.py scripts/route_driver.py scripts/start_rviz.py examples/warehouse_manager.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(TARGETS split_mapf_core ${SPLIT_MAPF_ILP_LIBRARY} split_mapf_ros split_mapf_client
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}

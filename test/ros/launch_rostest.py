@@ -58,6 +58,17 @@ class Launch(unittest.TestCase):
         self.assertLess(view["Scale"] * 20, 700)
         self.assertEqual(after["Window Geometry"], before["Window Geometry"])
 
+    def test_a_warehouse_of_either_language_brings_its_orders_home(self):
+        for manager in ("warehouse_manager.py", "warehouse_manager"):
+            demo = Program("roslaunch", "split_mapf", "warehouse_demo.launch", "robots:=6",
+                           "columns:=1", "rows:=2", "orders:=6", "speed:=8.0", "rviz:=false",
+                           "manager:=" + manager)
+            self.addCleanup(demo.end)
+            self.assertTrue(demo.wait_for_output(" 6 orders done"), demo.output())
+            self.assertIn("0 moves failed", demo.output())
+            demo.wait()
+            self.assertNotIn("Traceback", demo.output())
+
     def test_rosrun_finds_the_nodes_after_scripts_build(self):
         node = roslib.packages.find_node("split_mapf", "planner_node")[0]
         link = os.path.join(roslib.packages.get_pkg_dir("split_mapf"), "bin", "planner_node")
