@@ -1,12 +1,12 @@
 # The ROS side: conversions as a library for others, too; the rooms of the nodes; the nodes; installation.
 # catkin_lint sees no targets that a function makes: libraries are made here, and given what all have.
-function(split_mapf_build_ros_library library)
-  target_include_directories(${library} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+function(split_mapf_build_ros_library ros_library)
+  target_include_directories(${ros_library} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
   #catkin_lint: ignore_once external_interface_path
-  target_include_directories(${library} SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})
-  target_link_libraries(${library} PUBLIC split_mapf_core ${catkin_LIBRARIES})
-  add_dependencies(${library} ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
-  split_mapf_compile_options(${library})
+  target_include_directories(${ros_library} SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})
+  target_link_libraries(${ros_library} PUBLIC split_mapf_core ${catkin_LIBRARIES})
+  add_dependencies(${ros_library} ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
+  split_mapf_compile_options(${ros_library})
 endfunction()
 
 file(GLOB SPLIT_MAPF_CONVERT_SOURCES CONFIGURE_DEPENDS src/ros/convert/*.cpp)
@@ -15,11 +15,11 @@ split_mapf_in_units(split_mapf_ros SPLIT_MAPF_CONVERT_SOURCES)
 split_mapf_in_units(split_mapf_client SPLIT_MAPF_CLIENT_SOURCES)
 add_library(split_mapf_ros ${SPLIT_MAPF_CONVERT_SOURCES})
 add_library(split_mapf_client ${SPLIT_MAPF_CLIENT_SOURCES})
-foreach(library split_mapf_ros split_mapf_client)
-  split_mapf_build_ros_library(${library})
+foreach(ros_library split_mapf_ros split_mapf_client)
+  split_mapf_build_ros_library(${ros_library})
   # Nor does it look into one.
   #catkin_lint: ignore_once external_interface_path
-  target_include_directories(${library} SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})
+  target_include_directories(${ros_library} SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})
 endforeach()
 foreach(room server replay fleet scene)
   file(GLOB sources CONFIGURE_DEPENDS src/ros/${room}/*.cpp)

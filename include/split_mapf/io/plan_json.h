@@ -61,9 +61,9 @@ struct DiscClaims {
   std::vector<std::vector<MapPoint>> poses;
   CellPaths paths;  ///< on the planning graph
 };
-/// Reads it. What paths and poses claim is not judged. @throws InputError as readPlanJson(), and "path: ..." for a missing `poses`, a point
-/// that is no pair of numbers, a radius or clearance that is no number of 0 or more, and another
-/// number of `radii` than of `poses`.
+/// Reads it. What paths and poses claim is not judged. @throws InputError as readPlanJson(), and
+/// "path: ..." for a missing `poses`, a point that is no pair of numbers, a radius or clearance
+/// that is no number of 0 or more, and another number of `radii` than of `poses`.
 DiscClaims readDiscPlanJson(const std::string& path);
 
 /// Reads the `paths` of such a file; the other fields are left alone. What the paths claim is not

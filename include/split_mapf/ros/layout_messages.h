@@ -17,8 +17,8 @@ constexpr std::uint64_t kMostLayoutBytes = 64ULL << 20U;
 /// with a warning, when its owners would take more than kMostLayoutBytes.
 PlanLayout layoutOf(const PlanReport& report, const PlanningGrid& grid, const ros::Time& stamp);
 
-/// Checks a layout message, wherever it comes from. @throws InputError for lists that do not fit each
-/// other or the grid. Cost: O(cells).
+/// Checks a layout message, wherever it comes from. @throws InputError for lists that do not fit
+/// each other or the grid. Cost: O(cells).
 void requireConsistent(const PlanLayout& layout);
 
 /// Draws a layout for rviz: for each phase N three list markers in namespaces of their own, `phase
