@@ -58,10 +58,7 @@ endif()
 
 # An example of what conducts a fleet from above, in C++; in Python it is examples/warehouse_manager.py.
 add_executable(warehouse_manager examples/warehouse_manager.cpp)
-#catkin_lint: ignore_once external_interface_path
-target_include_directories(warehouse_manager SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
-target_link_libraries(warehouse_manager PRIVATE ${catkin_LIBRARIES})
-add_dependencies(warehouse_manager ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
+target_link_libraries(warehouse_manager PRIVATE split_mapf_ros)
 split_mapf_compile_options(warehouse_manager)
 install(TARGETS warehouse_manager RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 

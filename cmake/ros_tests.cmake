@@ -29,9 +29,11 @@ target_link_libraries(fleet_client_rostest split_mapf_client ${GTEST_LIBRARIES})
 target_compile_options(fleet_client_rostest PRIVATE ${SPLIT_MAPF_WARNINGS} -O1)
 add_dependencies(fleet_client_rostest planner_node split_mapf plan_two_robots)
 
-foreach(name replay recording lifecycle sim_time launch big_maps termination)
+foreach(name replay recording lifecycle sim_time big_maps termination)
   add_rostest(test/ros/${name}.test DEPENDENCIES planner_node replay_node split_mapf)
 endforeach()
+add_rostest(test/ros/launch.test
+  DEPENDENCIES planner_node replay_node executor_node fake_robots_node warehouse_manager)
 foreach(name fleet move)
   add_rostest(test/ros/${name}.test DEPENDENCIES executor_node fake_robots_node split_mapf)
 endforeach()
