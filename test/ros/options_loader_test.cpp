@@ -137,7 +137,7 @@ TEST(ServerOptions, AreWrittenInTheConfigurationFileAsTheyAre) {
 
 TEST(ReplayOptions, AreWrittenInTheConfigurationFileAsTheyAre) {
   XmlRpcValue file = readParameterFile("config/replay.yaml");
-  EXPECT_EQ(file.size(), 8);
+  EXPECT_EQ(file.size(), 9);
   const ReplayOptions options = readReplayOptions(file);
   const ReplayOptions defaults;
   EXPECT_EQ(options.style.robot_size_cells, defaults.style.robot_size_cells);
@@ -148,6 +148,7 @@ TEST(ReplayOptions, AreWrittenInTheConfigurationFileAsTheyAre) {
   EXPECT_EQ(options.speed, defaults.speed);
   EXPECT_EQ(options.loop, defaults.loop);
   EXPECT_EQ(options.wait_for_viewer, defaults.wait_for_viewer);
+  EXPECT_EQ(options.grid_frame, defaults.grid_frame);
 }
 
 TEST(ServerOptions, ASpeedAloneRefusedAllGoalsWithLongerSteps) {
