@@ -132,6 +132,7 @@ class Replay(unittest.TestCase):
     def test_uses_few_markers_with_fixed_names(self):
         self.command(ReplayControlRequest.PAUSE)
         self.command(ReplayControlRequest.SEEK, 5)
+        self.assertTrue(wait_until(lambda: self.goals_of(self.latest_markers())))
         array = self.latest_markers()
         names = sorted((marker.ns, marker.id) for marker in array.markers)
         self.assertEqual(names, [("goals", 0), ("robots", 0), ("trails", 0)])

@@ -169,12 +169,16 @@ MarkerParts Replay::duePartsLocked(bool moves) const {
   if (!shown_position_) return {};
   const ros::SteadyTime now = ros::SteadyTime::now();
   MarkerParts due;
-  // Where robots stand, all of the last message still holds, and a bag needs no more of it.
-  due.goals = moves && (now - goals_at_).toSec() >= kGoalsSec;
-  due.trails = trails_position_ != timeline_.position() &&
-               (!moves || due.goals || (now - trails_at_).toSec() >= kTrailsSec);
-  // The last message of a motion is latched for whoever comes later.
-  if (due.trails && !moves) due.goals = true;
+  const double position = timeline_.position();
+  if (!moves) {
+    // The last message of a motion is latched for whoever comes later, so it has all. As long as
+    // robots stand it holds, and a bag needs no more of it.
+    due.goals = due.trails = goals_position_ != position || trails_position_ != position;
+    return due;
+  }
+  due.goals = (now - goals_at_).toSec() >= kGoalsSec;
+  due.trails =
+      trails_position_ != position && (due.goals || (now - trails_at_).toSec() >= kTrailsSec);
   return due;
 }
 
@@ -202,7 +206,10 @@ void Replay::publishLocked(MarkerParts parts) {
   publisher_.publish(markers_->at(timeline_.position(), last_tick_, shown_labels_, parts));
   shown_labels_ = markers_->labels();
   shown_position_ = timeline_.position();
-  if (parts.goals) goals_at_ = ros::SteadyTime::now();
+  if (parts.goals) {
+    goals_at_ = ros::SteadyTime::now();
+    goals_position_ = timeline_.position();
+  }
   if (!parts.trails) return;
   trails_at_ = ros::SteadyTime::now();
   trails_position_ = timeline_.position();

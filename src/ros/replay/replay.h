@@ -77,7 +77,8 @@ class Replay {
   ros::Time last_tick_;
   std::optional<ros::SteadyTime> watched_since_;
   std::optional<double> shown_position_;
-  std::optional<double> trails_position_;
+  std::optional<double> trails_position_;  ///< with which trails went out last
+  std::optional<double> goals_position_;   ///< likewise goals
   ros::SteadyTime trails_at_;
   ros::SteadyTime goals_at_;
   std::size_t shown_labels_ = 0;
