@@ -77,12 +77,18 @@ void requireNoFaults(const Problem& problem, std::vector<InstanceFault> faults) 
   throw InstanceError(std::move(faults));
 }
 
-Problem wellPosed(Problem problem) {
+/// @param standing  tables that are given; 0: none.
+Problem wellPosed(Problem problem, std::size_t standing = 0) {
+  if (!problem.grid) throw InputError("a problem needs a grid");
   requireSizes(problem.starts.size(), problem.goals.size());
   std::vector<InstanceFault> faults;
   requireVertices(*problem.grid, problem.starts, "start", faults);
   requireVertices(*problem.grid, problem.goals, "goal", faults);
   requireNoFaults(problem, std::move(faults));
+  if (standing != 0 && standing != problem.starts.size()) {
+    throw InputError(counted(standing, "distance table") + " for " +
+                     counted(problem.starts.size(), "robot") + ": none, or one a robot is needed");
+  }
   return problem;
 }
 
@@ -107,7 +113,7 @@ Instance::Instance(std::shared_ptr<const Grid> grid, const std::vector<Cell>& st
       tables_(std::make_shared<const DistanceTables>(*problem_.grid, problem_.goals, extent)) {}
 
 Instance::Instance(Problem problem, DistanceExtent extent, const DistanceTables::Standing& standing)
-    : problem_(wellPosed(std::move(problem))),
+    : problem_(wellPosed(std::move(problem), standing.size())),
       tables_(std::make_shared<const DistanceTables>(*problem_.grid, problem_.goals, extent,
                                                      standing)) {}
 

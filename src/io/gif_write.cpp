@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <new>
 #include <utility>
 
 #include "io/file_bytes.h"
@@ -21,9 +22,13 @@ constexpr std::uint8_t kUnchanged = 255;  // transparent: what the frame before 
 constexpr std::uint32_t kMaxSide = 65535;
 
 int append(GifFileType* gif, const GifByteType* bytes, int count) {
-  static_cast<std::string*>(gif->UserData)
-      ->append(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(count));
-  return count;
+  try {
+    static_cast<std::string*>(gif->UserData)
+        ->append(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(count));
+    return count;
+  } catch (const std::bad_alloc&) {
+    return 0;  // nothing may be thrown through giflib; it reports this
+  }
 }
 
 void require(int answer, GifFileType* gif) {
@@ -61,6 +66,7 @@ class GifWriter::Stream {
   }
 
   void add(const Picture& picture) {
+    if (gif_ == nullptr) throw InputError("the animation is written already");
     if (picture.width_px != width_ || picture.height_px != height_) {
       throw InputError("a frame of another size than the first");
     }
@@ -73,6 +79,7 @@ class GifWriter::Stream {
   }
 
   std::string take() {
+    if (gif_ == nullptr) throw InputError("the animation is written already");
     int error = 0;
     const int answer = EGifCloseFile(gif_.release(), &error);
     if (answer != GIF_OK) throw InputError("the animation cannot be encoded");

@@ -60,7 +60,11 @@ std::shared_ptr<const Grid> readGrid(ByteReader& in) {
   std::vector<std::pair<Vertex, Vertex>> edges;
   const auto vertices = static_cast<std::uint32_t>(cells.size());
   for (Vertex v = 0; v < vertices; ++v) {
-    for (const Vertex u : in.numbers("edge", vertices - 1)) edges.emplace_back(v, u);
+    Vertex last = v;
+    for (const Vertex u : in.numbers("edge", vertices - 1)) {
+      if (u <= last) in.fail("the edges of a vertex are expected to go up, each once");
+      edges.emplace_back(v, last = u);
+    }
   }
   return std::make_shared<const Grid>(width, height, std::move(cells), edges);
 }

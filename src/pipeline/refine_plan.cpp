@@ -1,6 +1,7 @@
 #include "split_mapf/pipeline/refine_plan.h"
 
 #include <cstdint>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -54,7 +55,11 @@ class KnownPlanRun {
     } else if (table.isTooLarge()) {
       report_.message += "; not refined: " + table.describe();
     } else {
-      improve(solvers, executor, deadline);
+      try {
+        improve(solvers, executor, deadline);
+      } catch (const std::bad_alloc&) {
+        report_.message += "; memory ran out while it was refined";
+      }
     }
     log_.leaveStage();
     report_.stages = log_.stages();

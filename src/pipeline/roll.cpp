@@ -167,21 +167,24 @@ class RollRun {
     report_.free_flow_share = freeFlowShare();
   }
 
-  /// Of some robots: each goal is a search.
+  /// Of some goals: each is a search.
   double freeFlowShare() const {
     std::size_t goals = 0;
     for (const std::vector<ReachedGoal>& reached : report_.reached) goals += reached.size() + 1;
     const std::size_t stride = (goals + kMostWays - 1) / kMostWays;
     std::int64_t gained = 0;
     std::int64_t taken = 0;
-    for (std::size_t robot = 0; robot < report_.paths.size(); robot += stride) {
+    std::size_t count = 0;
+    for (std::size_t robot = 0; robot < report_.paths.size(); ++robot) {
       std::uint32_t begin = 0;
       for (const ReachedGoal& goal : report_.reached[robot]) {
-        addGain(report_.paths[robot], goal.goal, begin, goal.step, gained, taken);
+        if (count++ % stride == 0) {
+          addGain(report_.paths[robot], goal.goal, begin, goal.step, gained, taken);
+        }
         begin = goal.step;
       }
       const std::vector<Vertex>& ahead = question_.robots[robot].goals;
-      if (ahead.empty()) continue;
+      if (ahead.empty() || count++ % stride != 0) continue;
       addGain(report_.paths[robot], ahead.front(), begin, report_.steps, gained, taken);
     }
     return taken == 0 ? 0 : static_cast<double>(gained) / static_cast<double>(taken);

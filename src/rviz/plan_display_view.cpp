@@ -23,8 +23,8 @@ constexpr float kReachPixels = 5;   // a mouse need not be more exact
 constexpr float kLabelPixels = 13;  // height of letters
 constexpr float kPlacedPixels = 7;  // least radius of what is placed
 constexpr float kRing = 1.5F;       // of a robot's radius, around the followed one
-const PackedColour kFollowed = packed(0.95F, 0.2F, 0.65F, 0.8F);
-const PackedColour kPointedAt = packed(0.1F, 0.1F, 0.1F, 0.6F);
+const PackedColour followed_colour = packed(0.95F, 0.2F, 0.65F, 0.8F);
+const PackedColour pointed_at_colour = packed(0.1F, 0.1F, 0.1F, 0.6F);
 
 }  // namespace
 
@@ -102,8 +102,8 @@ void PlanDisplay::paintMarks(const SceneStyle& style) {
     marks.addDisc(fleet_.place(*scene_, robot, timeline_.position()),
                   kRing * shownRadius(*scene_, robot, style), 0, withAlpha(colour, 0.45F));
   };
-  if (scene_ && followed_) ring(*followed_, kFollowed);
-  if (scene_ && pointed_at_) ring(*pointed_at_, kPointedAt);
+  if (scene_ && followed_) ring(*followed_, followed_colour);
+  if (scene_ && pointed_at_) ring(*pointed_at_, pointed_at_colour);
   placed_.paint(placedRadius(), marks);
   if (!placed_.all().empty())
     layers_->attach(SceneLayer::kMarks, placed_.frame(), placed_.origin());

@@ -25,13 +25,14 @@ bool RobotLabels::add(const std::string& text, ScenePoint point, float size) {
   // An empty text cannot be drawn.
   const std::string caption = text.empty() ? " " : text;
   if (used_ == labels_.size()) {
-    labels_.push_back({parent_->createChildSceneNode(),
-                       std::make_unique<rviz::MovableText>(caption, "Liberation Sans", size,
-                                                           Ogre::ColourValue(0.1F, 0.1F, 0.1F)),
-                       caption});
-    labels_.back().text->setTextAlignment(rviz::MovableText::H_CENTER, rviz::MovableText::V_ABOVE);
-    labels_.back().text->setRenderQueueGroup(kAboveRobots);
-    labels_.back().node->attachObject(labels_.back().text.get());
+    Label& fresh = labels_.emplace_back();
+    fresh.node = parent_->createChildSceneNode();
+    fresh.text = std::make_unique<rviz::MovableText>(caption, "Liberation Sans", size,
+                                                     Ogre::ColourValue(0.1F, 0.1F, 0.1F));
+    fresh.caption = caption;
+    fresh.text->setTextAlignment(rviz::MovableText::H_CENTER, rviz::MovableText::V_ABOVE);
+    fresh.text->setRenderQueueGroup(kAboveRobots);
+    fresh.node->attachObject(fresh.text.get());
   }
   Label& label = labels_[used_++];
   if (label.caption != caption) {

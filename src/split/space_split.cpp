@@ -153,7 +153,8 @@ Piece SpaceSplit::pieceOf(std::uint32_t phase, std::uint32_t region) const {
     piece.robots.push_back(robot);
     problem.starts.push_back(grid.localOf(from[robot]));
     problem.goals.push_back(grid.localOf(to[robot]));
-    const bool is_same = !grid.map && to[robot] == instance_.goal(robot);
+    const bool is_same =
+        !grid.map && to[robot] == instance_.goal(robot) && instance_.distances(robot).isShareable();
     tables.push_back(is_same ? instance_.shareDistances(robot) : nullptr);
   }
   piece.instance =

@@ -108,23 +108,24 @@ Picture draw(const CommandLine& line, const Wishes& wishes, const Grid& grid,
 void writeFilm(const Wishes& wishes, const PlanFilm& film) {
   const double duration = wishes.film_duration.value_or(
       std::clamp(film.lastStep() * kFilmSecPerStep, kLeastFilmSec, kAutomaticFilmSec));
-  const double frames = std::round(duration * kFramesPerSec);
-  if (frames > kMostFrames) {
-    throw OptionError("option --duration: a film of " + counted(std::llround(frames), "frame") +
+  const double wanted = std::round(duration * kFramesPerSec);
+  if (wanted > kMostFrames) {
+    throw OptionError("option --duration: a film of " + counted(std::llround(wanted), "frame") +
                       " is too long, at most " + std::to_string(kMostFrames) + " are expected");
   }
-  const auto step = [&](double frame) { return film.lastStep() * frame / (frames - 1); };
+  const auto frames = static_cast<int>(wanted);
+  const auto step = [&](int frame) { return film.lastStep() * frame / (frames - 1); };
   GifWriter gif({film.at(0), film.at(film.lastStep() / 2), film.at(film.lastStep())},
                 100 / kFramesPerSec);
   Picture last;
-  for (double frame = 0; frame < frames; ++frame) {
+  for (int frame = 0; frame < frames; ++frame) {
     last = film.at(step(frame));
     gif.add(last);
   }
   for (int held = 0; held < kFramesPerSec; ++held) gif.add(last);
   gif.write(wishes.film_file);
   std::cout << wishes.film_file << ": " << last.width_px << "x" << last.height_px << " pixels, "
-            << std::lround(frames / kFramesPerSec) + 1 << " s\n";
+            << std::lround(wanted / kFramesPerSec) + 1 << " s\n";
 }
 
 void writePicture(const CommandLine& line, const Picture& picture, std::size_t robots) {

@@ -153,5 +153,12 @@ TEST(InstanceError, CountsFurtherFaults) {
   EXPECT_TRUE(mentions(error.what(), "1 more"));
 }
 
+TEST(Instance, RefusesAProblemWithoutGridAndTablesOfOthers) {
+  EXPECT_THROW(Instance(Problem{nullptr, {0}, {0}}), InputError);
+  const auto grid = std::make_shared<const Grid>(2, 1, std::vector<bool>{true, true});
+  EXPECT_THROW(Instance(Problem{grid, {0}, {1}}, DistanceExtent::kAll, {nullptr, nullptr}),
+               InputError);
+}
+
 }  // namespace
 }  // namespace split_mapf

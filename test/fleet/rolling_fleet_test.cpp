@@ -15,8 +15,8 @@ namespace {
 using test::rollingOptions;
 using test::RollingWorld;
 
-const std::vector<std::string> kHall = {"............", ".##.##.##.#.", "............",
-                                        ".##.##.##.#.", "............", "............"};
+const std::vector<std::string> hall_rows = {"............", ".##.##.##.#.", "............",
+                                            ".##.##.##.#.", "............", "............"};
 
 Vertex at(const RollingWorld& world, int x, int y) { return world.grid_->vertexAt({x, y}); }
 
@@ -29,7 +29,8 @@ std::vector<Vertex> firstPlaces(const Grid& grid, std::uint32_t robots) {
 struct Hall {
   explicit Hall(std::uint32_t robots, std::uint64_t seed = 1,
                 const FleetOptions& options = rollingOptions())
-      : grid(test::gridFromAscii(kHall)), world(grid, firstPlaces(*grid, robots), options, seed) {}
+      : grid(test::gridFromAscii(hall_rows)),
+        world(grid, firstPlaces(*grid, robots), options, seed) {}
   std::shared_ptr<const Grid> grid;
   RollingWorld world;
 };
@@ -122,7 +123,7 @@ TEST(RollingFleet, SaysWhyATaskCannotBeDone) {
 }
 
 TEST(RollingFleet, KeepsRobotsAtRestWhileOthersAreAsManyAsMayMove) {
-  const auto grid = test::gridFromAscii(kHall);
+  const auto grid = test::gridFromAscii(hall_rows);
   RollingWorld world(grid, firstPlaces(*grid, 6), rollingOptions(), 1, 2);
   for (int i = 0; i < 6; ++i) world.send("r" + std::to_string(i), at(world, 11 - i, 5));
   for (int i = 0; i < 1500 && !world.open_.empty(); ++i) {
@@ -133,7 +134,7 @@ TEST(RollingFleet, KeepsRobotsAtRestWhileOthersAreAsManyAsMayMove) {
 }
 
 TEST(RollingFleet, LetsATaskWaitForTheFirstRobotThatJoins) {
-  const auto grid = test::gridFromAscii(kHall);
+  const auto grid = test::gridFromAscii(hall_rows);
   RollingWorld world(grid, {}, rollingOptions(), 1);
   const std::uint64_t task = world.send("", at(world, 4, 4));
   for (int i = 0; i < 10; ++i) world.tick();
@@ -146,7 +147,7 @@ TEST(RollingFleet, LetsATaskWaitForTheFirstRobotThatJoins) {
 }
 
 TEST(RollingFleet, SendsARobotToWhereOneStandsThatIsJoining) {
-  const auto grid = test::gridFromAscii(kHall);
+  const auto grid = test::gridFromAscii(hall_rows);
   RollingWorld world(grid, {}, rollingOptions(), 1);
   for (const auto& [id, x] : {std::pair<std::string, int>("a", 0), {"b", 5}}) {
     world.bodies_.emplace_back(test::pointOf(*grid, at(world, x, 4)), RobotMotion(), id);

@@ -97,6 +97,7 @@ TEST_F(GifWriterTest, RefusesWhatCannotBeAFilm) {
   EXPECT_THROW(gif.add(plain(3, 2, {})), InputError);
   gif.add(plain(2, 2, {}));
   EXPECT_THROW(gif.write("/no/such/folder/film.gif"), InputError);
+  EXPECT_THROW(gif.add(plain(2, 2, {})), InputError);  // it is written
 }
 
 }  // namespace

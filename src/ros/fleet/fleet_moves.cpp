@@ -71,7 +71,7 @@ void FleetServer::takeMove(MoveAction::Goal goal) {
       const bool is_twice = !task.robot_id.empty() && times[task.robot_id] > 1;
       tasks.push_back(readTask(task, i, is_twice, time));
     }
-    moves_->add(std::move(goal), std::move(tasks), time);
+    moves_->add(goal, std::move(tasks), time);
   } catch (const GoalError& error) {
     end(error);
   } catch (const InputError& error) {

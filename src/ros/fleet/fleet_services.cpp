@@ -125,7 +125,7 @@ std::string FleetServer::tryToEnlist(const RobotTask& task, const Known& known) 
     read = readTask(unnamed, 0, false, now());
     if (read.fault) return read.fault->message;
   }
-  const std::string why = tryToJoin(task, known);
+  std::string why = tryToJoin(task, known);
   if (!why.empty()) return why;
   removed_.erase(task.robot_id);
   if (read.goal != kNoVertex) tasks_->add(task.robot_id, read.goal, now());

@@ -77,7 +77,7 @@ void MoveGoals::add(MoveAction::Goal goal, std::vector<MoveTask> asked, double n
   Record& record = records_[number];
   ids_[goal.getGoalID().id] = number;
   const double limit = goal.getGoal()->options.time_limit;
-  record.goal = std::move(goal);
+  record.goal = goal;
   record.asked = std::move(asked);
   record.until = limit > 0 ? now + limit : 0;
   record.robots.resize(record.asked.size());
