@@ -171,7 +171,7 @@ class RollRun {
   double freeFlowShare() const {
     std::size_t goals = 0;
     for (const std::vector<ReachedGoal>& reached : report_.reached) goals += reached.size() + 1;
-    const std::size_t stride = (goals + kMostWays - 1) / kMostWays;
+    const std::size_t stride = std::max<std::size_t>(1, (goals + kMostWays - 1) / kMostWays);
     std::int64_t gained = 0;
     std::int64_t taken = 0;
     std::size_t count = 0;
