@@ -25,6 +25,7 @@ void PlanAsker::choose(const std::string& action) {
   if (action == action_) return;
   action_ = action;
   client_.reset();
+  has_ended_ = true;
   if (action.empty()) return;
   try {
     client_ = std::make_unique<Client>(action, true);
@@ -42,6 +43,7 @@ void PlanAsker::ask(const std::vector<RobotTask>& robots, double time_limit_sec)
   goal.robots = robots;
   goal.options.time_limit = time_limit_sec;
   said_("asked for a plan of " + counted(robots.size(), "robot"));
+  if (!has_ended_) client_->cancelGoal();
   has_ended_ = false;
   client_->sendGoal(
       goal,
@@ -54,10 +56,6 @@ void PlanAsker::ask(const std::vector<RobotTask>& robots, double time_limit_sec)
         // The last one may come after the result: they come on two connections.
         if (!has_ended_) said_(progressText(*feedback));
       });
-}
-
-void PlanAsker::cancel() {
-  if (client_ && client_->isServerConnected()) client_->cancelGoalsAtAndBeforeTime(ros::Time());
 }
 
 }  // namespace split_mapf

@@ -22,10 +22,8 @@ class PlanAsker {
 
   /// Chooses the server; asks nothing yet, so that it can be found meanwhile.
   void choose(const std::string& action);
-  /// Sends a goal; a former one of this client is cancelled by that. Says so when there is no
-  /// server.
+  /// Sends a goal and cancels the former one of this object. Says so when there is no server.
   void ask(const std::vector<RobotTask>& robots, double time_limit_sec);
-  void cancel();
 
  private:
   using Client = actionlib::SimpleActionClient<PlanPathsAction>;

@@ -67,7 +67,11 @@ void PlanDisplay::onInitialize() {
   setStatus(StatusProperty::Warn, "Plan", "No plan has come yet.");
 }
 
-void PlanDisplay::onEnable() { topics_changed_ = true; }
+void PlanDisplay::onEnable() {
+  topics_changed_ = true;
+  // Time that nobody saw pass is not made up for.
+  timeline_.hold();
+}
 
 void PlanDisplay::onDisable() { feed_->unsubscribe(); }
 

@@ -86,6 +86,7 @@ class PlanDisplay : public rviz::Display {
   void followFrames();
   void repaint();
   void paintMarks(const SceneStyle& style);
+  void paintPlaced();
   void label();
   void watchCursor();
 

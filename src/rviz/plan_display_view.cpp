@@ -90,6 +90,7 @@ void PlanDisplay::repaint() {
       layers_->present(SceneLayer::kGoals);
     }
     paintMarks(style);
+    paintPlaced();
   }
   label();
   shown_step_ = timeline_.position();
@@ -104,10 +105,13 @@ void PlanDisplay::paintMarks(const SceneStyle& style) {
   };
   if (scene_ && followed_) ring(*followed_, followed_colour);
   if (scene_ && pointed_at_) ring(*pointed_at_, pointed_at_colour);
-  placed_.paint(placedRadius(), marks);
-  if (!placed_.all().empty())
-    layers_->attach(SceneLayer::kMarks, placed_.frame(), placed_.origin());
   layers_->present(SceneLayer::kMarks);
+}
+
+void PlanDisplay::paintPlaced() {
+  placed_.paint(placedRadius(), layers_->begin(SceneLayer::kDraft));
+  layers_->attach(SceneLayer::kDraft, placed_.frame(), placed_.origin());
+  layers_->present(SceneLayer::kDraft);
 }
 
 void PlanDisplay::label() {
@@ -130,10 +134,11 @@ void PlanDisplay::label() {
 }
 
 void PlanDisplay::watchCursor() {
-  if (!cursor_ || !cursor_->place()) return;
+  if (!cursor_) return;
   rviz::RenderPanel& panel = *manager()->getRenderPanel();
-  const std::optional<ScenePoint> ground =
-      groundAt(panel, *layers_->node(SceneLayer::kRobots), *cursor_->place());
+  const std::optional<QPoint> place = cursor_->place();
+  std::optional<ScenePoint> ground;
+  if (place) ground = groundAt(panel, *layers_->node(SceneLayer::kRobots), *place);
   const std::optional<std::size_t> before = pointed_at_;
   SceneStyle style = properties_->style();
   style.least_radius_m = properties_->least_size->getFloat() / 2 * metres_per_pixel_;
@@ -142,8 +147,8 @@ void PlanDisplay::watchCursor() {
     pointed_at_ = robotNear(moment(), *ground, kReachPixels * metres_per_pixel_, style);
   }
   if (pointed_at_ != before) changed_ = true;
-  if (pointed_at_) {
-    QToolTip::showText(panel.mapToGlobal(*cursor_->place()),
+  if (place && pointed_at_) {
+    QToolTip::showText(panel.mapToGlobal(*place),
                        QString::fromStdString(describe(moment(), *pointed_at_, style.late_sec)),
                        &panel);
   } else if (before) {
@@ -159,9 +164,10 @@ std::optional<ScenePoint> PlanDisplay::placeAt(QPoint place) {
     } else {
       placed_.begin(fixed_frame_.toStdString(), geometry_msgs::Point());
     }
-    layers_->attach(SceneLayer::kDraft, placed_.frame(), placed_.origin());
-    layers_->follow();
   }
+  // Robots of a plan may have been taken over since, with the plan's frame.
+  layers_->attach(SceneLayer::kDraft, placed_.frame(), placed_.origin());
+  layers_->follow();
   return groundAt(*manager()->getRenderPanel(), *layers_->node(SceneLayer::kDraft), place);
 }
 

@@ -31,7 +31,7 @@ constexpr std::uint32_t kPictureSide = 64;  // [pixels]
 void providePicture() {
   Ogre::TextureManager& textures = Ogre::TextureManager::getSingleton();
   const std::string& group = Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME;
-  if (textures.resourceExists(kPicture, group)) return;
+  if (textures.resourceExists(kPicture)) return;
   const auto picture = textures.createManual(kPicture, group, Ogre::TEX_TYPE_2D, kPictureSide,
                                              kPictureSide, Ogre::MIP_UNLIMITED, Ogre::PF_BYTE_RGBA,
                                              Ogre::TU_STATIC | Ogre::TU_AUTOMIPMAP);
@@ -117,8 +117,7 @@ QuadObject::QuadObject(bool discs) {
 QuadObject::~QuadObject() {
   OGRE_DELETE mRenderOp.vertexData;
   OGRE_DELETE mRenderOp.indexData;
-  Ogre::MaterialManager::getSingleton().remove(
-      material_, Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME);
+  Ogre::MaterialManager::getSingleton().remove(material_);
 }
 
 void QuadObject::choose(const QuadMesh& mesh) {

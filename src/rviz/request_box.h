@@ -3,6 +3,7 @@
 #include <QDoubleSpinBox>
 #include <QGroupBox>
 #include <QLabel>
+#include <QPointer>
 #include <QPushButton>
 
 #include "rviz/plan_asker.h"
@@ -24,7 +25,7 @@ class RequestBox : public QGroupBox {
   void takeOver();
   void clear();
 
-  PlanDisplay* shown_ = nullptr;  // of the last refresh
+  QPointer<PlanDisplay> shown_;  // of the last refresh; null once that display is gone
   QLabel* robots_;
   QLabel* said_;
   QDoubleSpinBox* time_limit_;

@@ -188,6 +188,10 @@ TEST_F(Fleet, HasRobotsWhereTheySayTheyAre) {
   progress.pose.pose.position.x = kNan;
   fleet_.take(progress, scene_);
   EXPECT_FLOAT_EQ(fleet_.place(scene_, 0, 0).x, 3);
+  // A number, but none that can be drawn.
+  progress.pose.pose.position.x = 1e39;
+  fleet_.take(progress, scene_);
+  EXPECT_FLOAT_EQ(fleet_.place(scene_, 0, 0).x, 3);
   progress.robot_id = "bob";
   progress.pose.pose.position.x = 103;
   progress.pose.header.frame_id = "elsewhere";

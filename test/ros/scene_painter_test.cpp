@@ -131,7 +131,7 @@ TEST(LayoutScene, JoinsNeighboursOfARowAndLeavesObstaclesOut) {
   EXPECT_THROW(paintLayout(layout, 0, mesh), InputError);
 }
 
-TEST(LayoutScene, LeavesOutPointsOfARoadmapThatAreNoNumbers) {
+TEST(LayoutScene, LeavesOutPointsOfARoadmapThatCannotBeDrawn) {
   visualization_msgs::MarkerArray markers;
   markers.markers.resize(1);
   markers.markers[0].type = visualization_msgs::Marker::LINE_LIST;
@@ -148,6 +148,17 @@ TEST(LayoutScene, LeavesOutPointsOfARoadmapThatAreNoNumbers) {
   mesh.clear();
   paintRoadmap(markers, origin, mesh);
   EXPECT_EQ(mesh.corners().size() / 4, 1U);
+  markers.markers[0].points[1].x = -1e39;
+  mesh.clear();
+  paintRoadmap(markers, origin, mesh);
+  EXPECT_TRUE(mesh.corners().empty());
+  markers.markers[0].points[1].x = 1;
+  markers.markers[0].scale.x = 1e38;
+  paintRoadmap(markers, origin, mesh);
+  EXPECT_TRUE(mesh.corners().empty());
+  markers.markers[0].points[0].z = 1e39;
+  EXPECT_FALSE(findRoadmap(markers, frame, origin));
+  markers.markers[0].points[0].z = 0;
   markers.markers[0].action = visualization_msgs::Marker::DELETE;
   EXPECT_FALSE(findRoadmap(markers, frame, origin));
 }

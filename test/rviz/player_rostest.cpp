@@ -29,6 +29,7 @@
 #include <split_mapf/ReplayControl.h>
 #include <QCheckBox>
 #include <QDoubleSpinBox>
+#include <QElapsedTimer>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSlider>
@@ -137,6 +138,8 @@ class Player : public ::testing::Test {
     folder = std::make_unique<Folder>().release();
     const std::string file = folder->file("plan.bag");
     writeBag(file);
+    // What is sent once is heard by who has subscribed, and a display does so with its first frame.
+    ASSERT_TRUE(window->drawFrames(1));
     const Program bag({"rosbag", "play", "-q", "--keep-alive", file});
     ASSERT_TRUE(window->waitForText("costs", "2 robots, makespan 19, sum of costs 19"))
         << window->textOf("costs");
@@ -158,6 +161,16 @@ class Player : public ::testing::Test {
     ASSERT_NE(found, nullptr) << button;
     found->click();
   }
+  /// Where the middle of r2's cell (5,8) is seen, 4.5 m left of the map's middle and 3.5 m above
+  /// it.
+  static QPoint placeOfR2() {
+    const double scale =
+        window->manager().getViewManager()->getCurrent()->subProp("Scale")->getValue().toDouble();
+    return {static_cast<int>(window->view().width() / 2.0 - 4.5 * scale),
+            static_cast<int>(window->view().height() / 2.0 - 3.5 * scale)};
+  }
+  /// The step that the panel tells.
+  static double stepNow() { return std::stod(window->textOf("now").substr(5)); }
   /// Where the view's middle is.
   static double viewX() {
     return window->manager().getViewManager()->getCurrent()->subProp("X")->getValue().toDouble();
@@ -195,6 +208,22 @@ TEST_F(Player, PlaysToTheEndAndAgainWhereItLoops) {
   window->widget<QDoubleSpinBox>("speed")->setValue(0);
 }
 
+TEST_F(Player, StandsStillWhileItsDisplayIsDisabled) {
+  window->widget<QDoubleSpinBox>("speed")->setValue(1);
+  click("play");
+  ASSERT_TRUE(window->waitFor([] { return stepNow() > 0; }));
+  window->display(kDisplay)->setEnabled(false);
+  const double before = stepNow();
+  QElapsedTimer clock;
+  clock.start();
+  ASSERT_TRUE(window->waitFor([&] { return clock.elapsed() > 6000; }));
+  window->display(kDisplay)->setEnabled(true);
+  ASSERT_TRUE(window->waitFor([&] { return stepNow() > before + 0.3; }));
+  EXPECT_LT(stepNow(), before + 5);
+  click("play");
+  window->widget<QDoubleSpinBox>("speed")->setValue(0);
+}
+
 TEST_F(Player, GoesWhereTheSliderIs) {
   window->widget<QSlider>("time")->setValue(75);
   EXPECT_TRUE(window->waitForText("now", "step 7.5 of 19"));
@@ -218,14 +247,13 @@ TEST_F(Player, FindsAndFollowsARobot) {
 TEST_F(Player, TellsOfTheRobotUnderTheMouse) {
   click("fit");
   ASSERT_TRUE(window->drawFrames(3));
-  const double scale =
-      window->manager().getViewManager()->getCurrent()->subProp("Scale")->getValue().toDouble();
-  // r2 in cell (5,8), 4.5 m left of the map's middle and 3.5 m above it.
-  const int x = static_cast<int>(window->view().width() / 2.0 - 4.5 * scale);
-  const int y = static_cast<int>(window->view().height() / 2.0 - 3.5 * scale);
-  window->moveMouse(x, y);
+  window->moveMouse(placeOfR2().x(), placeOfR2().y());
   EXPECT_TRUE(window->waitForText("robot", "r2, arrived")) << window->textOf("robot");
-  window->moveMouse(1, 1);
+  window->takeMouseAway();
+  window->widget<QLineEdit>("search")->setText("r1");
+  click("follow");
+  EXPECT_TRUE(window->waitForText("robot", "r1, moving")) << window->textOf("robot");
+  click("fit");
 }
 
 TEST_F(Player, PlacesMovesAndTakesAwayRobotsAndSaysThatNobodyPlans) {
@@ -337,6 +365,32 @@ TEST_F(Player, SurvivesPlansThatAreNonsense) {
   EXPECT_TRUE(window->waitFor([&] {
     return window->statusOf(kDisplay, "Plan") == "2 robots, makespan 19, sum of costs 19";
   }));
+}
+
+TEST_F(Player, HasRobotsThatItTookOverWhereAMapLiesElsewhere) {
+  ros::NodeHandle node;
+  const ros::Publisher publisher = node.advertise<MultiRobotPlan>(kPlanTopic, 10);
+  ASSERT_TRUE(window->waitFor([&] { return publisher.getNumSubscribers() > 0; }));
+  const auto seen = [](double x) {
+    return window->waitFor([x] {
+      click("fit");
+      return std::abs(viewX() - x) < 0.01;
+    });
+  };
+  MultiRobotPlan plan = smallPlan();
+  plan.grid.origin.position.x = 100;
+  publisher.publish(plan);
+  ASSERT_TRUE(seen(110)) << viewX();
+  click("take_over");
+  ASSERT_TRUE(window->waitForText("placed", "2 robots placed, 2 of them with a goal"));
+  ASSERT_TRUE(window->chooseTool("SplitMapf/PlaceRobots"));
+  ASSERT_TRUE(window->drawFrames(3));
+  window->clickAt(placeOfR2().x(), placeOfR2().y(), Qt::RightButton);
+  EXPECT_TRUE(window->waitForText("placed", "1 robots placed")) << window->textOf("placed");
+  click("clear");
+  ASSERT_TRUE(window->chooseTool("rviz/Interact"));
+  publisher.publish(smallPlan());
+  EXPECT_TRUE(seen(10)) << viewX();
 }
 
 TEST_F(Player, HasAPlannerPlanForThePlansRobots) {

@@ -92,4 +92,9 @@ void RvizWindow::drag(QPoint from, QPoint to) {
 
 void RvizWindow::moveMouse(int x, int y) { send(QEvent::MouseMove, {x, y}, Qt::NoButton, {}); }
 
+void RvizWindow::takeMouseAway() {
+  QEvent event(QEvent::Leave);
+  QApplication::sendEvent(&view(), &event);
+}
+
 }  // namespace split_mapf::test

@@ -45,6 +45,8 @@ class RvizWindow {
   /// Drags with the left button.
   void drag(QPoint from, QPoint to);
   void moveMouse(int x, int y);
+  /// Out of the 3D view.
+  void takeMouseAway();
   rviz::RenderPanel& view();
   rviz::VisualizationManager& manager() { return *frame_.getManager(); }
 

@@ -1,7 +1,5 @@
 #include "ros/scene/fleet_standing.h"
 
-#include <cmath>
-
 namespace split_mapf {
 
 void FleetStanding::begin(std::size_t robots) {
@@ -24,7 +22,7 @@ void FleetStanding::take(const RobotProgress& progress, const PlanScene& scene) 
   const std::optional<std::size_t> found = scene.find(progress.robot_id);
   const geometry_msgs::Point& point = progress.pose.pose.position;
   if (!found || progress.pose.header.frame_id != scene.geometry().frame()) return;
-  if (!std::isfinite(point.x) || !std::isfinite(point.y)) return;
+  if (!canBeDrawn(point.x) || !canBeDrawn(point.y)) return;
   const geometry_msgs::Point& origin = scene.geometry().info().origin.position;
   standings_[*found].place =
       ScenePoint{static_cast<float>(point.x - origin.x), static_cast<float>(point.y - origin.y)};

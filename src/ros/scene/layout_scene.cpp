@@ -47,8 +47,8 @@ class RowPainter {
   QuadMesh& mesh_;
 };
 
-bool isNumber(const geometry_msgs::Point& point) {
-  return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
+bool isPlace(const geometry_msgs::Point& point) {
+  return canBeDrawn(point.x) && canBeDrawn(point.y) && canBeDrawn(point.z);
 }
 
 ScenePoint relative(const geometry_msgs::Point& point, const geometry_msgs::Point& origin) {
@@ -83,7 +83,7 @@ bool findRoadmap(const visualization_msgs::MarkerArray& markers, std::string& fr
                  geometry_msgs::Point& origin) {
   for (const Marker& marker : markers.markers) {
     if (marker.action != Marker::ADD || marker.points.empty()) continue;
-    if (!isNumber(marker.points.front())) continue;
+    if (!isPlace(marker.points.front())) continue;
     frame = marker.header.frame_id;
     origin = marker.points.front();
     return true;
@@ -95,13 +95,13 @@ void paintRoadmap(const visualization_msgs::MarkerArray& markers,
                   const geometry_msgs::Point& origin, QuadMesh& mesh) {
   for (const Marker& marker : markers.markers) {
     if (marker.action != Marker::ADD) continue;
+    if (!canBeDrawn(marker.scale.x)) continue;
     const auto size = static_cast<float>(marker.scale.x);
-    if (!std::isfinite(size)) continue;
     const PackedColour colour = packedOf(marker.color);
     const std::size_t stride = marker.type == Marker::LINE_LIST ? 2 : 1;
     for (std::size_t k = 0; k + stride <= marker.points.size(); k += stride) {
       const geometry_msgs::Point& point = marker.points[k];
-      if (!isNumber(point) || !isNumber(marker.points[k + stride - 1])) continue;
+      if (!isPlace(point) || !isPlace(marker.points[k + stride - 1])) continue;
       if (marker.type == Marker::LINE_LIST) {
         mesh.addBar(relative(point, origin), relative(marker.points[k + 1], origin), size, 0,
                     colour, colour);

@@ -19,7 +19,7 @@ void paintLayout(const PlanLayout& layout, std::size_t phase, QuadMesh& mesh);
 bool findRoadmap(const visualization_msgs::MarkerArray& markers, std::string& frame,
                  geometry_msgs::Point& origin);
 /// Adds the edges and vertices of a planning graph, as the planner publishes them as markers.
-/// Points that are no numbers are left out.
+/// Points and sizes that cannot be drawn are left out.
 void paintRoadmap(const visualization_msgs::MarkerArray& markers,
                   const geometry_msgs::Point& origin, QuadMesh& mesh);
 

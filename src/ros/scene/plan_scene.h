@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -18,6 +19,10 @@ struct ScenePoint {
   float x = 0;
   float y = 0;
 };
+
+/// Whether a length or coordinate [m] of a message is a number that graphics can take; squares of
+/// greater ones overflow single precision there.
+inline bool canBeDrawn(double metres) { return std::abs(metres) <= 1e9; }
 
 /// What a robot of a plan does at a moment.
 enum class PlannedMotion { kMoving, kWaiting, kArrived };
