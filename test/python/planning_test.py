@@ -152,6 +152,10 @@ class Callback(unittest.TestCase):
 
 
 class Interrupt(unittest.TestCase):
+    def setUp(self):
+        # A shell has what it starts in the background ignore Ctrl-C.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
     def interrupted(self, call):
         """Seconds from Ctrl-C to the end of the call."""
         sent = []

@@ -107,11 +107,11 @@ class FleetModule(unittest.TestCase):
                 call()
         self.assertTrue(issubclass(OptionError, ValueError))
         options = mapf.make_options(refine_time=0, ignore_specks=0, passages=False, seed=None,
-                                    unknown_space="free", solver_options={"a": 1})
+                                    unknown_space="free", solver_options={"a": 1, "b": True})
         self.assertEqual((options.refine_time, options.ignore_specks, options.passages,
                           options.unknown_space, options.solver_options, options.seed),
                          (-1.0, -1, PlanOptions.PASSAGES_OFF, PlanOptions.UNKNOWN_SPACE_FREE,
-                          ["a=1"], 0))
+                          ["a=1", "b=true"], 0))
 
     def test_says_who_is_not_there(self):
         with self.assertRaisesRegex(mapf.NoAnswer, "no planner answers on /nowhere within 0.3 s"):

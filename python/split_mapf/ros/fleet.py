@@ -232,7 +232,7 @@ def _option(name, value, default):
         raise OptionError("%s: %r was given, %s is expected" %
                           (name, value, " or ".join(map(str, _WORDS[name]))))
     if isinstance(value, dict) and isinstance(default, list):
-        value = ["%s=%s" % pair for pair in value.items()]
+        value = ["%s=%s" % (key, _word(one)) for key, one in value.items()]
     expected = (int, float) if isinstance(default, float) else type(default)
     if not isinstance(value, expected) or isinstance(value, bool) != isinstance(default, bool):
         raise OptionError("%s: %r was given, a value of type %s is expected" %
@@ -244,3 +244,8 @@ def _option(name, value, default):
         raise OptionError("%s: %d was given, a whole number from %d to %d is expected" %
                           (name, value, least, most))
     return -1 if name in ("ignore_specks", "occupied_threshold") and value == 0 else value
+
+
+def _word(value):
+    """Options say true and false, Python True and False."""
+    return str(value).lower() if isinstance(value, bool) else value
