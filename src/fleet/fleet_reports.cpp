@@ -134,6 +134,7 @@ void FleetExecution::comeBack(std::uint32_t robot) {
   Robot& record = robots_[robot];
   record.absence = record.paused ? Absence::kPaused : Absence::kNone;
   record.place = kNoVertex;
+  if (record.void_promise && !options_.plans_anew) renewPromise(robot);
   incident_ = true;
   closeCells();
 }
@@ -144,6 +145,16 @@ void FleetExecution::voidPromise(std::uint32_t robot) {
   promised_[robot] = graph_.at(robot) + (isUnderWay(robot) ? 1 : 0);
   robots_[robot].void_promise = true;
   changed_[robot] = true;
+}
+
+/// Where nothing is planned anew it goes on by the same visits, with new numbers.
+void FleetExecution::renewPromise(std::uint32_t robot) {
+  Robot& record = robots_[robot];
+  const VisitId last = graph_.precedence().last(robot);
+  for (VisitId v = promised_[robot] + 1; v <= last; ++v) sequences_[v] = record.next_sequence++;
+  record.void_promise = false;
+  changed_[robot] = true;
+  ++snapshot_version_;
 }
 
 void FleetExecution::pause(std::uint32_t robot, bool paused) {

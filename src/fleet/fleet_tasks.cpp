@@ -195,10 +195,11 @@ void FleetTasks::match(FleetExecution& fleet, double now) {
   if (most == 0 || idle.empty()) return;
   // The fewer ones are rows, of which there is a bound.
   if (std::min(open.size(), idle.size()) > most) open.resize(std::min(open.size(), most));
-  has_news_ = open.size() < numbers.size() && idle.size() > open.size() && mayBegin();
+  bool is_any_matched = false;
   const std::vector<std::uint32_t> matched = matchTasks(graph, closed, open, places);
   for (std::size_t i = 0; i < matched.size(); ++i) {
     if (matched[i] == kNoRobot) continue;
+    is_any_matched = true;
     const auto task = tasks_.find(numbers[i]);
     const std::uint32_t robot = idle[matched[i]];
     task->second.robot = fleet.id(robot);
@@ -206,6 +207,9 @@ void FleetTasks::match(FleetExecution& fleet, double now) {
     unclaimed_.erase(numbers[i]);
     send(fleet, task, robot, now);
   }
+  // Where nobody could be matched, the next call would find the same.
+  const bool is_more = open.size() < numbers.size() && idle.size() > open.size() && mayBegin();
+  has_news_ = has_news_ || (is_any_matched && is_more);
 }
 
 }  // namespace split_mapf

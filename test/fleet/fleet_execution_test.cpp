@@ -286,6 +286,33 @@ TEST(FleetExecution, EndsInItsOrderWhereNothingIsPlannedAnew) {
   EXPECT_EQ(fleet.ground(0).size(), 1U);
 }
 
+/// It had lost its leg for ever: nobody plans it anew.
+TEST(FleetExecution, LetsARobotWhoseFaultIsOverGoOnWithItsLeg) {
+  const LegOrder legs =
+      orderLegs({{{0, 0}, {2, 0}, 0.3, 0}, {{0, -2}, {0, 1}, 0.3, 1}, {{9, 9}, {9, 8}, 0.3, 0}}, 0,
+                {"robot a", "robot b", "robot c"});
+  FleetOptions options;
+  options.moves = legs.moves;
+  options.plans_anew = false;
+  FleetExecution fleet(legs.grid, {"a", "b", "c"}, legs.plan, options, 0);
+  fleet.advance(0.1);
+  fleet.report(0, {0, 0, DriveStatus::kFault, {}}, 0.2);
+  fleet.advance(0.3);
+  fleet.takeChanged();
+  fleet.report(0, {0, 0, DriveStatus::kOk, {}}, 0.4);
+  fleet.advance(0.5);
+  EXPECT_TRUE(fleet.status(0.5)[0].moves);
+  EXPECT_EQ(fleet.takeChanged(), std::vector<std::uint32_t>{0});
+  const std::vector<RouteStep> route = fleet.route(0, 100);
+  ASSERT_EQ(route.size(), 2U);
+  EXPECT_TRUE(route[1].released);
+  EXPECT_GT(route[1].sequence, 1U) << "it goes on to visits with new numbers only";
+  fleet.report(0, {route[1].sequence, 0, DriveStatus::kOk, {}}, 0.6);
+  fleet.advance(0.7);
+  EXPECT_TRUE(fleet.status(0.7)[0].arrived);
+  EXPECT_TRUE(fleet.status(0.7)[1].moves) << "b waits for a no more";
+}
+
 TEST(FleetExecution, RefusesJointRingsOnPlanningGraphs) {
   const LegOrder legs = orderLegs({{{0, 0}, {2, 0}, 0.3, 0}}, 0, {"robot a"});
   FleetOptions options;

@@ -84,6 +84,21 @@ TEST(RollingFleet, GivesATaskToTheNearestIdleRobots) {
   }
 }
 
+/// Idle robots that cannot come to any task had it look for work without a pause.
+TEST(RollingFleet, HasNoNewsWhereIdleRobotsCanDoNothing) {
+  const auto grid = test::gridFromAscii({"....", "####", "...."});
+  RollingWorld world(grid, {0, 1, 2, 4}, rollingOptions(), 1, 2);
+  world.send("r3", at(world, 3, 2));
+  world.tick();
+  world.send("", at(world, 1, 2));
+  world.send("", at(world, 2, 2));
+  EXPECT_TRUE(world.tasks_->hasNews());
+  world.tick();
+  ASSERT_EQ(world.tasks_->active(), 1U);
+  EXPECT_EQ(world.tasks_->waiting(), 2U);
+  EXPECT_FALSE(world.tasks_->hasNews());
+}
+
 TEST(RollingFleet, GivesATaskOfADeadRobotToAnotherOne) {
   Hall hall(2);
   const std::uint64_t task = hall.world.send("", at(hall.world, 5, 0));

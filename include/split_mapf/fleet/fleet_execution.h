@@ -226,6 +226,7 @@ class FleetExecution {
   void dropOut(std::uint32_t robot, Absence absence);
   void comeBack(std::uint32_t robot);
   void voidPromise(std::uint32_t robot);
+  void renewPromise(std::uint32_t robot);
   void settleRestored(double now);
   void promiseRestored();
   bool settleOne(std::uint32_t robot, double part, std::vector<VisitId>& targets);
