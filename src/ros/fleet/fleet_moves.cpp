@@ -99,8 +99,10 @@ void FleetServer::roll(double now) {
   if (goal_ || waiting_ || (fleet_ && (!tasks_ || fleet_->isCancelled()))) {
     throw GoalError(Outcome::kServerBusy, "a plan is being executed; wait for its end");
   }
+  // A pause, and goals whose ends have not been told, are the old fleet's.
   const bool is_busy =
-      fleet_ && (fleet_->isRestoring() || !tasks_->isEmpty() || replans_ || !isAtRest(*fleet_));
+      fleet_ && (fleet_->isRestoring() || !tasks_->isEmpty() || moves_->size() > 0 || replans_ ||
+                 all_paused_ || !paused_.empty() || !isAtRest(*fleet_));
   if (is_busy || (fleet_ && !hasNewMap())) return;
   const auto map = maps_.choose(std::make_shared<const nav_msgs::OccupancyGrid>());
   const GoalOptions& goal = options_.server.goal;
@@ -112,6 +114,7 @@ void FleetServer::roll(double now) {
   if (options_.robot_radius_m > 0) {
     options.release = releaseFraction(options_.robot_radius_m, resolution);
   }
+  if (fleet_) keepPlaces();
   moves_.reset();
   tasks_.reset();
   changeGrid(grid);
@@ -124,7 +127,9 @@ void FleetServer::roll(double now) {
   ++epoch_;
   kept_version_ = 0;
   index_.clear();
-  for (auto& [id, known] : known_) known.place = placeOf(known.pose);
+  for (auto& [id, known] : known_) {
+    if (known.hasPose()) known.place = placeOf(known.pose);
+  }
   startTasks();
   joinReporting(now);
   ROS_INFO("conducting a rolling fleet, steps of %g s", options.step_sec);

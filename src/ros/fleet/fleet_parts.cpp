@@ -1,6 +1,7 @@
 // Of the fleet server: plans of robots that have size, which are executed part by part.
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 #include "ros/convert/fleet_messages.h"
@@ -30,11 +31,12 @@ void FleetServer::beginPart(const std::vector<std::string>& ids, double now) {
   std::vector<LeftOut> ways;
   for (const auto& [id, way] : left_out_) ways.push_back(way);
   FleetPart part = discs_->part(part_, ids, ways);
-  grid_->grid = part.grid;
   faults_.insert(faults_.end(), part.faults.begin(), part.faults.end());
   part_options_.moves = part.moves;
   part_options_.plans_anew = part.plans_anew;
-  setFleet(std::make_unique<FleetExecution>(part.grid, part.ids, part.plan, part_options_, now));
+  auto fleet = std::make_unique<FleetExecution>(part.grid, part.ids, part.plan, part_options_, now);
+  grid_->grid = part.grid;
+  setFleet(std::move(fleet));
   reindex();
   closeLeftOut();
   closeCells();
@@ -73,6 +75,17 @@ void FleetServer::leaveOut(std::uint32_t robot, const std::vector<FleetRobotStat
                 "robot " + quote(id) + " has to stay where it is, for a robot that takes no part"));
 }
 
+/// Robots that did not come to where the last part leads them, and of which nothing was said yet.
+void FleetServer::nameThoseLeft(const std::vector<FleetRobotStatus>& status) {
+  for (std::uint32_t robot = 0; robot < status.size(); ++robot) {
+    const std::string& id = fleet_->id(robot);
+    const bool is_named = std::any_of(faults_.begin(), faults_.end(), [&](const RobotFault& fault) {
+      return fault.robot_id == id;
+    });
+    if (!status[robot].arrived && !is_named) leaveOut(robot, status);
+  }
+}
+
 /// @return whether there is one: robots that came to where this part led them go on.
 bool FleetServer::goOnToNextPart(const std::vector<FleetRobotStatus>& status, double now) {
   if (isLastPart() || fleet_->isCancelled()) return false;
@@ -84,13 +97,16 @@ bool FleetServer::goOnToNextPart(const std::vector<FleetRobotStatus>& status, do
   }
   if (ids.empty()) return false;
   ++part_;
+  const auto name_all = [&](Outcome code, const std::string& what) {
+    for (const std::string& id : ids) faults_.push_back(makeFault(id, code, what));
+    return false;
+  };
   try {
     beginPart(ids, now);
   } catch (const InputError& error) {
-    for (const std::string& id : ids) {
-      faults_.push_back(makeFault(id, Outcome::kUnreachableGoal, error.what()));
-    }
-    return false;
+    return name_all(Outcome::kUnreachableGoal, error.what());
+  } catch (const std::exception& error) {
+    return name_all(Outcome::kInternalError, std::string("internal error: ") + error.what());
   }
   return true;
 }

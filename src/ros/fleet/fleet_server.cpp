@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <exception>
 #include <utility>
 
 #include <ros/console.h>
@@ -153,6 +155,9 @@ void FleetServer::takeGoal(Goal goal) {
     refuse(goal, error);
   } catch (const InputError& error) {
     refuse(goal, GoalError(Outcome::kInvalidOption, error.what()));
+  } catch (const std::exception& error) {
+    refuse(goal,
+           GoalError(Outcome::kInternalError, std::string("internal error: ") + error.what()));
   }
 }
 
@@ -231,10 +236,18 @@ std::vector<RobotFault> FleetServer::notReady(const Waiting& waiting, double now
 
 /// Cells of a map that lies elsewhere are other places.
 void FleetServer::changeGrid(const PlanningGrid& grid) {
-  const bool stays = grid_ && liesTheSame(grid_->geometry, grid.geometry);
-  grid_ = grid;
-  if (stays) return;
-  for (auto& [id, known] : known_) known.place = placeOf(known.pose);
+  const std::optional<PlanningGrid> before = std::exchange(grid_, grid);
+  if (before && liesTheSame(before->geometry, grid.geometry)) return;
+  const bool same_frame = before && before->geometry.frame() == grid.geometry.frame();
+  for (auto& [id, known] : known_) {
+    if (known.hasPose()) {
+      known.place = placeOf(known.pose);
+    } else if (known.place && same_frame) {
+      known.place = grid.geometry.cellAt(before->geometry.centreOf(*known.place));
+    } else {
+      known.place.reset();
+    }
+  }
   if (blocked_.empty()) return;
   ROS_WARN("the map lies elsewhere now, so that %s may be entered again",
            counted(blocked_.size(), "blocked cell").c_str());
@@ -318,6 +331,10 @@ void FleetServer::takeUpAgain(double now) {
       planned_sec_ = std::max(planned_sec_, robot.planned_sec);
     }
     ++epoch_;
+    all_paused_ = kept->all_paused;
+    for (const FleetSnapshot::Robot& robot : kept->robots) {
+      if (robot.paused) paused_.insert(robot.id);
+    }
     if (kept->rolling) startTasks();
     ROS_WARN("taking up again the execution of %s that was under way when this node ended",
              counted(kept->robots.size(), "robot").c_str());
@@ -347,6 +364,7 @@ void FleetServer::endWhenFinished(double now) {
   if (!fleet_ || replans_ || !fleet_->isFinished()) return;
   const std::vector<FleetRobotStatus> status = fleet_->status(now);
   if (goOnToNextPart(status, now)) return;
+  if (discs_ && isLastPart() && !fleet_->isCancelled()) nameThoseLeft(status);
   std::vector<RobotFault> all = faults_;
   for (RobotFault& fault : faultsOf(*fleet_, status, *grid_)) {
     if (left_out_.count(fault.robot_id) == 0) all.push_back(std::move(fault));
@@ -373,14 +391,26 @@ void FleetServer::endWhenFinished(double now) {
   end(result);
 }
 
-void FleetServer::end(const ExecutePlanResult& result) {
-  publishState(clock_);
+/// Where robots of a fleet that ends stand, whose progress has no pose.
+void FleetServer::keepPlaces() {
+  const MapGeometry& geometry = grid_->geometry;
+  for (const auto& [id, way] : left_out_) {
+    Known& known = known_[id];
+    if (known.hasPose() || way.empty()) continue;
+    const double resolution_m = geometry.info().resolution;
+    known.place = Cell{static_cast<std::int32_t>(std::floor(way.front().x / resolution_m)),
+                       static_cast<std::int32_t>(std::floor(way.front().y / resolution_m))};
+  }
   for (std::uint32_t robot = 0; robot < fleet_->robots(); ++robot) {
     Known& known = known_[fleet_->id(robot)];
-    const bool has_pose = !known.pose.header.frame_id.empty();
-    if (has_pose) continue;
-    known.place = grid_->geometry.cellAt(pointOf(*fleet_, fleet_->vertexOf(robot), *grid_));
+    if (known.hasPose()) continue;
+    known.place = geometry.cellAt(pointOf(*fleet_, fleet_->vertexOf(robot), *grid_));
   }
+}
+
+void FleetServer::end(const ExecutePlanResult& result) {
+  publishState(clock_);
+  keepPlaces();
   const bool arrived = result.outcome == codeOf(Outcome::kSucceeded);
   const bool cancelled = result.outcome == codeOf(Outcome::kCancelled);
   if (goal_ && arrived) goal_->setSucceeded(result, result.message);

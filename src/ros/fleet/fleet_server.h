@@ -91,6 +91,8 @@ class FleetServer {
     geometry_msgs::PoseStamped pose;  ///< the last one; an empty frame: it gave none
     std::optional<Cell> place;        ///< on the present grid
     std::uint8_t status = RobotProgress::OK;
+
+    bool hasPose() const { return !pose.header.frame_id.empty(); }
   };
   /// A plan that is right, and waits for its robots to report, or for an older one to end.
   struct Waiting {
@@ -117,10 +119,12 @@ class FleetServer {
   bool goOnToNextPart(const std::vector<FleetRobotStatus>& status, double now);
   bool isLastPart() const { return !discs_ || part_ + 1 == DiscParts::kParts; }
   void leaveOut(std::uint32_t robot, const std::vector<FleetRobotStatus>& status);
+  void nameThoseLeft(const std::vector<FleetRobotStatus>& status);
   void closeLeftOut();
   void setFleet(std::unique_ptr<FleetExecution> fleet);
   void takeUpAgain(double now);
   void endWhenFinished(double now);
+  void keepPlaces();
   void end(const ExecutePlanResult& result);
   void refuse(Goal& goal, const GoalError& error) const;
 

@@ -56,6 +56,7 @@ bool FleetServer::removeRobot(RemoveRobot::Request& request, RemoveRobot::Respon
     return true;
   }
   removed_.insert(request.robot_id);
+  paused_.erase(request.robot_id);
   fleet_->remove(*robot);
   index_.clear();
   response.message = "robot " + quote(request.robot_id) + " is off the floor";
@@ -79,7 +80,8 @@ std::string FleetServer::tryToAdd(const RobotTask& task) {
       return std::string("there is no fleet to join: ") + error.what();
     }
   }
-  if (!fleet_) return "a plan waits for its robots";
+  if (waiting_) return "a plan waits for its robots";
+  if (fleet_->isCancelled()) return "what is executed is being cancelled; try later";
   if (discs_) return "robots that have size cannot join a plan yet";
   const std::string fault = faultOfRobotId(task.robot_id);
   if (!fault.empty()) return "its robot_id " + fault;

@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include <actionlib_msgs/GoalStatus.h>
+
 #include "split_mapf/core/wording.h"
 
 namespace split_mapf {
@@ -93,6 +95,9 @@ void MoveGoals::add(MoveAction::Goal goal, std::vector<MoveTask> asked, double n
     places_[record.tasks[i]] = {number, i};
     ++record.open;
   }
+  // The word to cancel it may have come before it was here.
+  const std::uint8_t status = record.goal.getGoalStatus().status;
+  if (status == actionlib_msgs::GoalStatus::PREEMPTING) cancel(record.goal);
   if (record.open == 0) end(records_.find(number));
 }
 
