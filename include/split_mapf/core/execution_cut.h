@@ -21,7 +21,7 @@ bool isDownwardClosed(const ExecutionGraph& graph, const Cut& cut);
 Cut cutBefore(const ExecutionGraph& graph, const Forecast& forecast, std::uint32_t tick);
 
 /// The same cut without rings that have not begun, and without what waits for them: where robots
-/// do not move together, nobody is promised a part in one. Cost: O(events in the cut), for each
+/// do not move together, no robot is promised a part in one. Cost: O(events in the cut), for each
 /// event that waits for the one before.
 Cut withoutRings(const ExecutionGraph& graph, Cut cut);
 
@@ -34,8 +34,8 @@ Precedence restBehind(const ExecutionGraph& graph, const Cut& cut);
 /// cut's vertices on may be put there whatever the robots' delays (proof obligation (d) of
 /// ExecutionGraph): its events wait for those of the cut, never the other way round.
 /// @param plan  begins where the cut ends. Further paths in it are those of robots that join: they
-/// stand where these begin, and nobody comes there up to the cut. @pre the cut is downward-closed.
-/// Cost: O(events).
+/// stand where these begin, and no robot comes there up to the cut. @pre the cut is
+/// downward-closed. Cost: O(events).
 ExecutionGraph concatenate(const ExecutionGraph& graph, const Cut& cut, const Plan& plan);
 
 }  // namespace split_mapf

@@ -27,7 +27,7 @@ std::vector<std::uint8_t> quarterTurns(const Grid& grid, const Precedence& prece
 /// Quarter turns in place at `at` of a robot that came from `from` and goes on to `to`.
 std::uint8_t quarterTurns(const Grid& grid, Vertex from, Vertex at, Vertex to);
 
-/// When events will begin and end if nobody is late any more [ticks from now]; 0 for those that
+/// When events will begin and end if no robot is late any more [ticks from now]; 0 for those that
 /// are over.
 struct Forecast {
   std::vector<std::uint32_t> begins;  ///< by event

@@ -28,8 +28,8 @@ struct CloseWaits {
   std::vector<Wait> all;
 };
 
-/// A plan under execution: the order of its events, where the robots are, and who may go on. Times
-/// play no part: robots may be late by any delay.
+/// A plan under execution: the order of its events, where the robots are, and which robots may go
+/// on. Times play no part: robots may be late by any delay.
 ///
 /// The rule. A robot may begin a move once the robot whose visit comes before at that vertex has
 /// done the *release fraction* of its move out of it (see releaseFraction()); at fraction 0, once

@@ -17,7 +17,7 @@ struct PromiseRule {
   const Cut* limit = nullptr;                    ///< by robot: the last visit at most
 };
 
-/// Promises robots what they may do at once: of each its next visits, as long as nobody is before
+/// Promises robots what they may do at once: of each its next visits, as long as no robot is before
 /// them there. Promises are never taken back, so another plan goes behind them; as they wait for
 /// nothing but what is done, they are a downward-closed cut. Cost: O(robots and visits promised).
 /// @param promised  by robot, grows.

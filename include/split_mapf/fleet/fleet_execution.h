@@ -33,7 +33,7 @@ struct FleetOptions {
   /// it no joint rings. Null: a grid.
   std::shared_ptr<const CloseMoves> moves;
   /// Whether another plan is made where this one cannot be carried out. Without, its order stays:
-  /// whoever cannot go on stands, and it is finished when nobody can.
+  /// a robot that cannot go on stands, and it is finished when no robot can.
   bool plans_anew = true;
 };
 /// @throws OptionError naming what is out of range.
@@ -68,9 +68,10 @@ struct FleetRobotStatus {
   GoalFault fault = GoalFault::kNone;
 };
 
-/// Conducts a fleet that carries out a plan: takes in robots' progress, says who may go on, and has
-/// the rest replanned when robots are late, drop out, or find cells blocked. Knows no ROS and no
-/// clock: the caller tells the time, in seconds from any moment on, which never goes back.
+/// Conducts a fleet that carries out a plan: takes in robots' progress, says which robots may go
+/// on, and has the rest replanned when robots are late, drop out, or find cells blocked. Knows no
+/// ROS and no clock: the caller tells the time, in seconds from any moment on, which never goes
+/// back.
 ///
 /// Robots obey these rules, by which none ever comes too close to another:
 ///  - a robot goes on only to visits that are released to it;
@@ -84,7 +85,7 @@ struct FleetRobotStatus {
 ///
 /// Replans run elsewhere: ask() makes a question at times, whose answer is to be given to take().
 /// Meanwhile robots go on up to the question's cut. Plans made anew replace those that cannot be
-/// carried out; until one is found, everybody goes on whose way is not touched.
+/// carried out; until one is found, every robot goes on whose way is not touched.
 /// Not thread-safe. Memory: 24 bytes a visit. Cost of a report: O(log visits).
 class FleetExecution {
  public:
@@ -103,9 +104,9 @@ class FleetExecution {
   ReportFate report(std::uint32_t robot, const RobotReport& report, double now);
   /// The robot is there, but has not begun on its route: it stands where that begins.
   void hear(std::uint32_t robot, DriveStatus status, const std::optional<Cell>& place, double now);
-  /// Vertices that nobody may be sent to, beside those where absent robots stand.
+  /// Vertices that no robot may be sent to, beside those where absent robots stand.
   void setBlocked(const std::vector<bool>& blocked);
-  /// Vertices where robots stand that are not of the fleet: nobody may be sent there either. They
+  /// Vertices where robots stand that are not of the fleet: no robot may be sent there either. They
   /// come and go, and are not part of a snapshot.
   void setStrangers(const std::vector<bool>& taken);
   /// Takes a robot off the floor: its cells are free. The numbers of those behind it sink by one.
@@ -115,9 +116,9 @@ class FleetExecution {
   std::string add(const std::string& id, Vertex at, Vertex goal);
   /// A paused robot ends what is released to it, then the others are planned around it.
   void pause(std::uint32_t robot, bool paused);
-  /// Nobody is promised anything more; false: everybody goes on, those paused one by one, too.
+  /// No robot is promised anything more; false: every robot goes on, those paused one by one, too.
   void pauseAll(bool paused);
-  /// Everybody ends what is released, and stays.
+  /// Every robot ends what is released, and stays.
   void cancel();
   /// Of a rolling fleet: sends a robot to a vertex, wherever it was sent before; kNoVertex: it ends
   /// what is released, and is idle. Robots may have the same goal. The next question is due at
@@ -153,7 +154,7 @@ class FleetExecution {
   double stepSec() const { return options_.step_sec; }
   Absence absence(std::uint32_t robot) const { return robots_[robot].absence; }
   GoalFault fault(std::uint32_t robot) const { return robots_[robot].fault; }
-  /// By vertex: where nobody may be sent now.
+  /// By vertex: where no robot may be sent now.
   const std::vector<bool>& closed() const { return closed_; }
   /// The vertex where a robot was wanted in the first place; kNoVertex: it is idle.
   Vertex goal(std::uint32_t robot) const { return robots_[robot].goal; }
@@ -257,7 +258,7 @@ class FleetExecution {
   void grow(double now);
 
   // Replans.
-  /// Whether a question is out whose answer will be taken: nobody has left since.
+  /// Whether a question is out whose answer will be taken: no robot has left since.
   bool isAwaited() const { return asked_ && question_version_ == version_; }
   FleetQuestion makeQuestion(bool anew);
   std::optional<FleetQuestion> askRolling(double now);
@@ -292,7 +293,8 @@ class FleetExecution {
   double next_anew_ = 0;
   std::uint32_t next_number_ = 0;
   bool incident_ = false;  ///< the rest has to be planned anew
-  /// The question that is out: its cut, where robots were, and who stood without a promise.
+  /// The question that is out: its cut, where robots were, and which robots stood without a
+  /// promise.
   bool asked_ = false;
   bool asked_anew_ = false;
   std::uint64_t question_version_ = 0;

@@ -53,14 +53,15 @@ struct FleetQuestion {
   ReplanBudget budget;
   bool avoid_rings = true;
   std::shared_ptr<FleetGround> ground;  ///< of the last answer; null: none yet
-  bool stalled = false;                 ///< nobody has leave to go on
+  bool stalled = false;                 ///< no robot has leave to go on
   /// Edges that come too near to robots that take no part, ascending; none on a grid.
   std::vector<Edge> closed_edges = {};
 
   // Of a rolling fleet.
   double asked_sec = 0;  ///< on the caller's clock
   double step_sec = 1;
-  std::vector<bool> closed = {};  ///< by vertex: where nobody may be sent, whoever is there
+  std::vector<bool> closed =
+      {};  ///< by vertex: where no robot may be sent, whichever robot is there
   std::vector<std::uint32_t> numbers = {};  ///< by robot, those that join last: stays the same
   std::vector<bool> fresh = {};             ///< by robot: what it was going to do is of no use
   std::vector<std::uint32_t> ages = {};     ///< by robot: how long after its goal [steps]
@@ -78,7 +79,7 @@ struct FleetAnswer {
 
 /// Answers a question. Anew: every robot that takes part is planned from where its promise ends to
 /// its goal, on the cells that are open; whoever has no way is brought to the nearest cell where
-/// nobody wants to go. What is planned is validated. Never throws for lack of a plan.
+/// no robot wants to go. What is planned is validated. Never throws for lack of a plan.
 /// Thread-safe for different grounds. Cost: a plan, or the budget of a replan.
 /// @param request  solver and limits of plans made anew.
 FleetAnswer answerFleet(const FleetQuestion& question, const Planner& planner,

@@ -51,7 +51,7 @@ std::string toString(Absence absence);
 /// Why a robot cannot be sent to its goal.
 enum class GoalFault {
   kNone,
-  kBlocked,  ///< the goal's cell is blocked, or somebody stands there for good
+  kBlocked,  ///< the goal's cell is blocked, or a robot stands there for good
   kNoWay,    ///< the way to it is cut off
 };
 

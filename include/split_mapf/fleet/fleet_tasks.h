@@ -21,7 +21,7 @@ enum class TaskEnd {
   kRobotLost,    ///< its robot is silent, or says that it is lost
   kRobotStuck,   ///< its robot has a fault, is blocked for good, or left its cells
   kRobotGone,    ///< its robot was taken off the floor, or never was of the fleet
-  kGoalBlocked,  ///< nobody may be sent to its goal, as that is blocked or somebody stands there
+  kGoalBlocked,  ///< no robot may be sent to its goal, as that is blocked or a robot stands there
   kNoWay,        ///< its goal is cut off from its robot, or from all that there are
 };
 
@@ -97,7 +97,7 @@ class FleetTasks {
   FleetTaskRules rules_;
   Tasks tasks_;                                        // by number
   std::unordered_map<std::string, std::uint64_t> of_;  // by robot: its task
-  std::map<std::uint64_t, Vertex> unclaimed_;          // that anybody may do, and nobody does
+  std::map<std::uint64_t, Vertex> unclaimed_;          // that anybody may do, and no robot does
   std::map<std::uint64_t, std::string> unbegun_;       // whose robot has not been sent
   std::vector<std::string> stopped_;                   // robots whose tasks ended
   std::vector<EndedTask> ended_;

@@ -17,8 +17,8 @@ namespace split_mapf {
 
 /// How a plan is executed by robots that are late.
 enum class ExecutionPolicy {
-  kLockstep,  ///< nobody begins a step of the plan before all have ended the one before
-  kGraph,     ///< everybody goes on as soon as the order of the visits allows (ExecutionGraph)
+  kLockstep,  ///< no robot begins a step of the plan before all have ended the one before
+  kGraph,     ///< every robot goes on as soon as the order of the visits allows (ExecutionGraph)
   kReplan,    ///< likewise, and what is not promised yet is replanned again and again
 };
 /// @throws OptionError for another name, naming those that there are.
@@ -46,7 +46,7 @@ struct SimulationOptions {
   ReplanBudget budget;
   bool avoid_rings = true;  ///< with a release above 0: see RestReplanner; policy kReplan only
   std::uint32_t step_limit = 1000000;  ///< the simulation gives up then
-  /// Called after each tick with all robots' places; null: nobody wants to know.
+  /// Called after each tick with all robots' places; may be empty.
   std::function<void(const std::vector<RobotPlace>& places)> on_tick;
 };
 

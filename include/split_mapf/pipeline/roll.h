@@ -42,7 +42,7 @@ struct RollReport {
   std::uint32_t steps = 0;  ///< that were done: fewer than asked for when the deadline expired
   std::uint64_t goals_reached = 0;
   double throughput = 0;  ///< goals a step
-  /// Steps that robots with goals came nearer by, over all their steps: 1 where nobody ever waits
+  /// Steps that robots with goals came nearer by, over all their steps: 1 where no robot ever waits
   /// for others or makes a detour. With these goals more than throughput / share cannot be.
   double free_flow_share = 0;
   double service_mean = 0;  ///< [steps] from goal to goal

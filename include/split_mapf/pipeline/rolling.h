@@ -46,7 +46,7 @@ struct RollingRobot {
 /// A fleet as it stands now.
 struct RollingQuestion {
   std::vector<RollingRobot> robots;
-  std::vector<Vertex> blocked;  ///< who is there may leave; nobody comes in
+  std::vector<Vertex> blocked;  ///< a robot that is there may leave; none comes in
 };
 
 /// The next steps of a fleet.
@@ -69,7 +69,7 @@ struct RollingAnswer {
 ///
 /// At any thread count the same questions and numbers of expansions give the same answers; a clock
 /// chooses only how often improve() is called. Every answer has passed a check of its own.
-/// Everybody may stop at the end of its prefix: a question in which that would be a collision is
+/// Every robot may stop at the end of its prefix: a question in which that would be a collision is
 /// refused. Distances are kept by goal, a byte a vertex, within `cache_bytes`, or what the robots
 /// need now. Not thread-safe. Source: windows after Li et al. (RHCR, AAAI 2021); the rest is ours.
 /// Cost: begin() O(robots * window), a breadth-first search for each goal that is new, and where a

@@ -10,15 +10,15 @@ namespace split_mapf {
 class ReservedPaths;
 
 /// Conflict optimisation: all robots are placed within a fixed horizon, each where it displaces the
-/// robots of the least weight; who is displaced is queued again and weighs more from then on. The
-/// first horizon is the greatest shortest path, so a makespan plan found there is optimal and
-/// certified; a horizon whose effort is spent gives way to a longer one.
-/// Source: Crombez et al. (team Shadoks), SoCG 2021. Deviations: safe intervals with evictions
-/// instead of a table over cells and steps, so memory does not grow with the horizon; longer
-/// horizons keep what is placed; for sum of costs the horizon starts with some slack; robots are
-/// searched for in batches, side by side (SolveRequest::threads), see docs/algorithms.md.
-/// Incomplete: it may say kNoPlanFound on a solvable instance, never kUnsolvable (a robot that is
-/// cut off excepted). Cost: about one search a robot where there is room.
+/// robots of the least weight; a robot that is displaced is queued again and weighs more from then
+/// on. The first horizon is the greatest shortest path, so a makespan plan found there is optimal
+/// and certified; a horizon whose effort is spent gives way to a longer one. Source: Crombez et al.
+/// (team Shadoks), SoCG 2021. Deviations: safe intervals with evictions instead of a table over
+/// cells and steps, so memory does not grow with the horizon; longer horizons keep what is placed;
+/// for sum of costs the horizon starts with some slack; robots are searched for in batches, side by
+/// side (SolveRequest::threads), see docs/algorithms.md. Incomplete: it may say kNoPlanFound on a
+/// solvable instance, never kUnsolvable (a robot that is cut off excepted). Cost: about one search
+/// a robot where there is room.
 class ConflictOptimizerSolver : public Solver {
  public:
   struct Settings {

@@ -18,8 +18,8 @@ struct EcbsSettings;
 /// found is polished; a robot in another's goal branches on "arrives later" against "never there
 /// again" (after target reasoning, Li et al., ICAPS 2020). For sum of costs cardinal conflicts come
 /// first (ICBS, Boyarski et al., IJCAI 2015) and a matching of them raises the bound (CBSH, Felner
-/// et al., ICAPS 2018). Robots head on in a corridor branch on who comes first (Li et al., ICAPS
-/// 2020); for w up to 1.1 groups of robots that do not meet are planned apart (Standley, AAAI
+/// et al., ICAPS 2018). Robots head on in a corridor branch on which robot comes first (Li et al.,
+/// ICAPS 2020); for w up to 1.1 groups of robots that do not meet are planned apart (Standley, AAAI
 /// 2010). Complete on solvable instances; on an unsolvable one it searches until the deadline,
 /// unless a robot is cut off from its goal, which it proves at once.
 class EcbsSolver : public Solver {

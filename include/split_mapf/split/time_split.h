@@ -21,7 +21,7 @@ enum class TimeSplitVariant {
   kBisection,
   /// As far as nine tenths of the piece's time allow, or at its share of its way where that is
   /// farther. Ours, for makespan: only robots that need the whole time have none to spare, so that
-  /// pieces still meet their bounds, and nobody is held back to walk along with the longest way.
+  /// pieces still meet their bounds, and no robot is held back to walk along with the longest way.
   kAhead,
 };
 
