@@ -237,7 +237,7 @@ TEST(FleetRuns, HaveNoCollisionsAndNoDeadlocks) {
 TEST(FleetRuns, HaveNoCollisionsAndNoDeadlocksOnPlanningGraphs) {
   Count count;
   forSeeds(
-      30, [&](Drive& run) { everythingGoesWrong(run, count); }, 200, planningSceneOf);
+      30, [&](Drive& run) { everythingGoesWrong(run, count); }, 60, planningSceneOf);
   show(count);
   EXPECT_GT(count.anew, 10U);
 }
