@@ -259,16 +259,20 @@ TEST(FleetExecution, FindsSilentRobotsAndTakesThemBack) {
   EXPECT_EQ(small.fleet->route(0, 100).back().vertex, 3U);
 }
 
-/// Legs are driven in an order that no other plan would know: it stays, whoever fails.
-TEST(FleetExecution, EndsInItsOrderWhereNothingIsPlannedAnew) {
-  // The leg of b crosses that of a, which goes first; c is far away.
+/// Three legs: that of b crosses that of a, which goes first; c is far away.
+FleetExecution fleetOnLegs() {
   const LegOrder legs =
       orderLegs({{{0, 0}, {2, 0}, 0.3, 0}, {{0, -2}, {0, 1}, 0.3, 1}, {{9, 9}, {9, 8}, 0.3, 0}}, 0,
                 {"robot a", "robot b", "robot c"});
   FleetOptions options;
   options.moves = legs.moves;
   options.plans_anew = false;
-  FleetExecution fleet(legs.grid, {"a", "b", "c"}, legs.plan, options, 0);
+  return FleetExecution(legs.grid, {"a", "b", "c"}, legs.plan, options, 0);
+}
+
+/// Legs are driven in an order that no other plan would know: it stays, whichever robot fails.
+TEST(FleetExecution, EndsInItsOrderWhereNothingIsPlannedAnew) {
+  FleetExecution fleet = fleetOnLegs();
   EXPECT_FALSE(fleet.isFinished()) << "nobody was promised anything yet";
   fleet.advance(0.1);
   EXPECT_TRUE(fleet.status(0.1)[0].moves);
@@ -288,13 +292,7 @@ TEST(FleetExecution, EndsInItsOrderWhereNothingIsPlannedAnew) {
 
 /// It had lost its leg for ever: nobody plans it anew.
 TEST(FleetExecution, LetsARobotWhoseFaultIsOverGoOnWithItsLeg) {
-  const LegOrder legs =
-      orderLegs({{{0, 0}, {2, 0}, 0.3, 0}, {{0, -2}, {0, 1}, 0.3, 1}, {{9, 9}, {9, 8}, 0.3, 0}}, 0,
-                {"robot a", "robot b", "robot c"});
-  FleetOptions options;
-  options.moves = legs.moves;
-  options.plans_anew = false;
-  FleetExecution fleet(legs.grid, {"a", "b", "c"}, legs.plan, options, 0);
+  FleetExecution fleet = fleetOnLegs();
   fleet.advance(0.1);
   fleet.report(0, {0, 0, DriveStatus::kFault, {}}, 0.2);
   fleet.advance(0.3);

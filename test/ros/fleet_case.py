@@ -17,9 +17,6 @@ from ros_processes import Recorder, SentGoal, start_program
 from split_mapf.msg import (ExecutePlanAction, ExecutePlanGoal, FleetState, MultiRobotPlan,
                             RobotPath, RobotProgress)
 
-# Twice the radius of the largest robot that fits into the cells.
-APART = 0.70
-
 
 def command():
     return roslib.packages.find_node("split_mapf", "split_mapf")[0]
@@ -97,25 +94,6 @@ class FleetCase(unittest.TestCase):
         self.addCleanup(fleet.end)
         self.assertTrue(fleet.wait_for_output("ready:"), fleet.output())
         return fleet
-
-    def start_robots(self, failures=()):
-        rospy.set_param("/fake_robots/failures", list(failures))
-        robots = start_program("fake_robots_node", "routes:=fleet/routes",
-                               "_speed:=%g" % (1 / self.STEP), "_rate:=20",
-                               "_delay_probability:=0.01", "_min_delay:=3", "_max_delay:=8",
-                               "_delay_step:=%g" % self.STEP)
-        self.addCleanup(robots.end)
-        return robots
-
-    def assert_kept_apart(self):
-        path = os.path.join(self.directory.name, self.id().rsplit(".", 1)[-1] + ".bag")
-        with rosbag.Bag(path, "w") as bag:
-            for message in self.progress.messages:
-                bag.write("/progress", message, message.pose.header.stamp)
-        script = roslib.packages.find_node("split_mapf", "check_distances.py")[0]
-        check = subprocess.run([sys.executable, script, path, "--distance", str(APART)],
-                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
-        self.assertEqual(check.returncode, 0, check.stdout)
 
     def send(self, plan=None):
         client = actionlib.ActionClient("fleet/execute", ExecutePlanAction)

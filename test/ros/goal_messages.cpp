@@ -90,4 +90,17 @@ PlanPathsGoal hardGoal() {
   return goal;
 }
 
+MultiRobotPlan smallPlan() {
+  MultiRobotPlan plan;
+  plan.header.frame_id = "map";
+  plan.grid = mapFromAscii({"....", "...."}).info;
+  plan.step_duration = 1;
+  plan.paths.resize(2);
+  plan.paths[0].robot_id = "a";
+  plan.paths[0].cells = {0, 1, 2, 6};
+  plan.paths[1].robot_id = "b";
+  plan.paths[1].cells = {7};
+  return plan;
+}
+
 }  // namespace split_mapf::test

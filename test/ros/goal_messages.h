@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <nav_msgs/OccupancyGrid.h>
+#include <split_mapf/MultiRobotPlan.h>
 #include <split_mapf/PlanPathsGoal.h>
 #include <split_mapf/RobotTask.h>
 
@@ -23,5 +24,7 @@ RobotTask taskBetween(const std::string& id, const geometry_msgs::PoseStamped& s
 PlanPathsGoal smallGoal();
 /// A dense grid that ECBS at suboptimality 1 does not solve within minutes.
 PlanPathsGoal hardGoal();
+/// Robots a, which moves for three steps, and b, which stands, on 4 by 2 cells.
+MultiRobotPlan smallPlan();
 
 }  // namespace split_mapf::test
