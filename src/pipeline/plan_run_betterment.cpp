@@ -8,20 +8,12 @@
 #include "improve/settlement.h"
 #include "pipeline/other_objective.h"
 #include "pipeline/plan_run.h"
+#include "pipeline/refine_request.h"
 #include "portfolio/solver_choice.h"
 #include "search/straighten.h"
 #include "split_mapf/improve/refine.h"
 
 namespace split_mapf {
-namespace {
-
-// Robots whose conflicts hang together up to this number are worth a search for the optimum.
-constexpr std::uint32_t kSmallKnot = 20;
-// More robots than that are measured only where `auto` has to choose.
-constexpr std::uint32_t kMostToMeasure = 200;
-
-}  // namespace
-
 void PlanRun::searchOptimum() {
   const bool wanted = report_.solver == "auto" && !report_.optimal && features_ &&
                       features_->largest_group <= kSmallKnot;
@@ -59,24 +51,12 @@ void PlanRun::takeFromOther() {
 }
 
 void PlanRun::refineWithin(double seconds) {
-  if (step_table_.isTooLarge()) {
-    report_.message += "; not refined: " + step_table_.describe();
-    return;
-  }
-  if (!canRefine(report_.objective)) {
-    report_.message +=
-        "; not refined: there is no refinement for objective " + toString(report_.objective);
-    return;
-  }
+  const std::string why_not = whyNotRefined(report_, step_table_);
+  report_.message += why_not;
+  if (!why_not.empty()) return;
   log_.enterStage("refine");
   if (!features_ && report_.robots <= kMostToMeasure) features_ = measureFeatures(instance_);
-  RefineOptions options;
-  options.objective = report_.objective;
-  options.seed = report_.seed;
-  options.threads = report_.threads;
-  options.solvers = &solvers_;
-  options.lower_bound = static_cast<std::uint64_t>(report_.proved_lower_bound);
-  options.small_knot = features_ && features_->largest_group <= kSmallKnot;
+  RefineOptions options = refineOptionsOf(report_, solvers_, features_);
   std::uint64_t least_sum = 0;
   options.proved = [&](Objective objective, std::uint64_t bound) {
     if (objective == report_.objective) {

@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "improve/settlement.h"
+#include "pipeline/refine_request.h"
 #include "pipeline/run_log.h"
 #include "pipeline/step_table.h"
 #include "split_mapf/core/error.h"
@@ -19,11 +21,6 @@
 
 namespace split_mapf {
 namespace {
-
-// As where plans are made: few robots that hang together are worth a search for the optimum, and
-// only small teams are measured for it.
-constexpr std::uint32_t kSmallKnot = 20;
-constexpr std::uint32_t kMostToMeasure = 200;
 
 /// One call of refinePlan().
 class KnownPlanRun {
@@ -49,12 +46,9 @@ class KnownPlanRun {
     take(std::move(plan));
     log_.enterStage("refine");
     const StepTable table(instance_, report_.makespan);
-    if (!canRefine(report_.objective)) {
-      report_.message +=
-          "; not refined: there is no refinement for objective " + toString(report_.objective);
-    } else if (table.isTooLarge()) {
-      report_.message += "; not refined: " + table.describe();
-    } else {
+    const std::string why_not = whyNotRefined(report_, table);
+    report_.message += why_not;
+    if (why_not.empty()) {
       try {
         improve(solvers, executor, deadline);
       } catch (const std::bad_alloc&) {
@@ -88,14 +82,9 @@ class KnownPlanRun {
   }
 
   void improve(const SolverRegistry& solvers, Executor& executor, const Deadline& deadline) {
-    RefineOptions options;
-    options.objective = report_.objective;
-    options.seed = report_.seed;
-    options.threads = report_.threads;
-    options.solvers = &solvers;
-    options.lower_bound = static_cast<std::uint64_t>(report_.proved_lower_bound);
-    options.small_knot =
-        report_.robots <= kMostToMeasure && measureFeatures(instance_).largest_group <= kSmallKnot;
+    std::optional<InstanceFeatures> features;
+    if (report_.robots <= kMostToMeasure) features = measureFeatures(instance_);
+    RefineOptions options = refineOptionsOf(report_, solvers, features);
     options.proved = [this](Objective objective, std::uint64_t bound) {
       if (objective == report_.objective) raiseBound(static_cast<double>(bound));
     };

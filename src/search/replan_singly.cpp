@@ -121,17 +121,11 @@ class BatchReplanning {
   /// @return whether the robot's turn is over: it has the path, or there is none.
   bool take(std::uint32_t robot, Path path) {
     if (path.empty()) return true;
-    ReservationTable& table = tables_.front();
-    Path& own = plan_.paths[robot];
-    table.remove(robot, own);
-    const bool free = table.isFree(path, 0);
-    if (free) {
-      gained_ += own.size() - path.size();
-      own.swap(path);
-      changes_.push_back({robot, std::move(path)});
-    }
-    table.insert(robot, own);
-    return free;
+    const Path& own = plan_.paths[robot];
+    if (!tables_.front().exchange(robot, plan_.paths[robot], path)) return false;
+    gained_ += path.size() - own.size();  // they have changed places
+    changes_.push_back({robot, std::move(path)});
+    return true;
   }
 
   void tellTheOthers() {

@@ -22,6 +22,14 @@ void ReservationTable::remove(std::uint32_t robot, const Path& path) {
   flip(path, 0);
 }
 
+bool ReservationTable::exchange(std::uint32_t robot, Path& own, Path& path) {
+  remove(robot, own);
+  const bool free = isFree(path, 0);
+  if (free) own.swap(path);
+  insert(robot, own);
+  return free;
+}
+
 void ReservationTable::removeTail(std::uint32_t robot, const Path& path, std::uint32_t from) {
   coverSteps(from + std::size_t{2});
   paths_.removeTail(robot, path, from);

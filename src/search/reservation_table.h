@@ -28,6 +28,10 @@ class ReservationTable {
   void insertTail(std::uint32_t robot, const Path& path, std::uint32_t from);
   void removeHead(std::uint32_t robot, const Path& path, std::uint32_t from);
 
+  /// Gives the robot the other path, where no robot is in its way; `own` and `path` then change
+  /// places. @return whether it has it. @pre `own` is what was inserted for the robot.
+  bool exchange(std::uint32_t robot, Path& own, Path& path);
+
   /// Closes a vertex for one step at which nobody is there, or opens it again: no path of the
   /// table, but none that is searched for leads there. @pre t is no later than lastChange().
   void toggleStep(Vertex v, std::uint32_t t) {

@@ -75,16 +75,9 @@ class Straightening {
   /// @return false if somebody is in the way.
   bool take(std::uint32_t robot, Path path) {
     if (path.empty()) return true;
-    ReservationTable& table = tables_.front();
-    Path& own = plan_.paths[robot];
-    table.remove(robot, own);
-    const bool free = table.isFree(path, 0);
-    if (free) {
-      own.swap(path);
-      changes_.push_back({robot, std::move(path)});
-    }
-    table.insert(robot, own);
-    return free;
+    if (!tables_.front().exchange(robot, plan_.paths[robot], path)) return false;
+    changes_.push_back({robot, std::move(path)});
+    return true;
   }
 
   void repeatChanges(ReservationTable& table) const {

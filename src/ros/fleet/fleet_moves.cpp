@@ -10,6 +10,7 @@
 #include "ros/convert/task_reader.h"
 #include "ros/convert/text_limits.h"
 #include "ros/fleet/fleet_server.h"
+#include "ros/fleet/refused_goal.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/release_fraction.h"
 #include "split_mapf/core/wording.h"
@@ -42,15 +43,6 @@ bool isFinite(const geometry_msgs::PoseStamped& pose) {
 }  // namespace
 
 void FleetServer::takeMove(MoveAction::Goal goal) {
-  const auto end = [&](const GoalError& error) {
-    MoveRobotsResult result;
-    result.outcome = codeOf(error.outcome());
-    result.message = error.what();
-    result.faults = error.faults();
-    if (error.outcome() == Outcome::kServerBusy) return goal.setRejected(result, result.message);
-    goal.setAccepted();
-    goal.setAborted(result, result.message);
-  };
   const Lock lock(mutex_);
   const double time = now();
   const MoveRobotsGoal& asked = *goal.getGoal();
@@ -73,9 +65,9 @@ void FleetServer::takeMove(MoveAction::Goal goal) {
     }
     moves_->add(goal, std::move(tasks), time);
   } catch (const GoalError& error) {
-    end(error);
+    refuseGoal<MoveRobotsResult>(goal, error);
   } catch (const InputError& error) {
-    end(GoalError(Outcome::kInvalidOption, error.what()));
+    refuseGoal<MoveRobotsResult>(goal, GoalError(Outcome::kInvalidOption, error.what()));
   }
 }
 

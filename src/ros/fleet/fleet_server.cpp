@@ -15,6 +15,7 @@
 #include "ros/convert/fleet_messages.h"
 #include "ros/convert/plan_check.h"
 #include "ros/convert/text_limits.h"
+#include "ros/fleet/refused_goal.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/release_fraction.h"
 #include "split_mapf/core/wording.h"
@@ -114,16 +115,6 @@ double FleetServer::now() {
   return clock_;
 }
 
-void FleetServer::refuse(Goal& goal, const GoalError& error) const {
-  ExecutePlanResult result;
-  result.outcome = codeOf(error.outcome());
-  result.message = error.what();
-  result.faults = error.faults();
-  if (error.outcome() == Outcome::kServerBusy) return goal.setRejected(result, result.message);
-  goal.setAccepted();
-  goal.setAborted(result, result.message);
-}
-
 void FleetServer::takeGoal(Goal goal) {
   try {
     const Lock lock(mutex_);
@@ -152,12 +143,12 @@ void FleetServer::takeGoal(Goal goal) {
     if (fleet_) fleet_->cancel();
     waiting_ = std::move(waiting);
   } catch (const GoalError& error) {
-    refuse(goal, error);
+    refuseGoal<ExecutePlanResult>(goal, error);
   } catch (const InputError& error) {
-    refuse(goal, GoalError(Outcome::kInvalidOption, error.what()));
+    refuseGoal<ExecutePlanResult>(goal, GoalError(Outcome::kInvalidOption, error.what()));
   } catch (const std::exception& error) {
-    refuse(goal,
-           GoalError(Outcome::kInternalError, std::string("internal error: ") + error.what()));
+    refuseGoal<ExecutePlanResult>(
+        goal, GoalError(Outcome::kInternalError, std::string("internal error: ") + error.what()));
   }
 }
 

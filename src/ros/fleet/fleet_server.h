@@ -126,7 +126,6 @@ class FleetServer {
   void endWhenFinished(double now);
   void keepPlaces();
   void end(const ExecutePlanResult& result);
-  void refuse(Goal& goal, const GoalError& error) const;
 
   // The action ~move: a rolling fleet, which robots join as they report.
   void takeMove(MoveAction::Goal goal);
