@@ -51,10 +51,10 @@ TEST_F(DiscsThroughTheNode, PlansAreSafeAndPublishedWithTheirGraph) {
   ValidatePlan check;
   check.request.map = goal.map;
   check.request.plan = result.plan;
-  ASSERT_TRUE(ros::service::call("split_mapf/validate_plan", check));
+  ASSERT_TRUE(callService("validate_plan", check));
   EXPECT_TRUE(check.response.valid) << check.response.violations.front();
   check.request.plan.clearance = 0.2;
-  ASSERT_TRUE(ros::service::call("split_mapf/validate_plan", check));
+  ASSERT_TRUE(callService("validate_plan", check));
   EXPECT_FALSE(check.response.valid);
 
   const auto graph = ros::topic::waitForMessage<visualization_msgs::MarkerArray>(
@@ -74,7 +74,7 @@ TEST_F(DiscsThroughTheNode, ADoorThatIsTooNarrowIsNamed) {
   check.request.map = goal.map;
   check.request.robots = goal.robots;
   check.request.options = goal.options;
-  ASSERT_TRUE(ros::service::call("split_mapf/check_solvable", check));
+  ASSERT_TRUE(callService("check_solvable", check));
   EXPECT_EQ(check.response.outcome, PlanOutcome::UNREACHABLE_GOAL);
 }
 
@@ -102,7 +102,7 @@ TEST_F(DiscsThroughTheNode, SpecksWereObstaclesToRobotsWithoutSize) {
   ValidatePlan check;
   check.request.map = goal.map;
   check.request.plan = result.plan;
-  ASSERT_TRUE(ros::service::call("split_mapf/validate_plan", check));
+  ASSERT_TRUE(callService("validate_plan", check));
   EXPECT_TRUE(check.response.valid) << check.response.violations.front();
   goal.options.ignore_specks = -1;
   EXPECT_EQ(runGoal(client_, goal).result().outcome, PlanOutcome::BLOCKED_CELL);
@@ -119,7 +119,7 @@ TEST_F(DiscsThroughTheNode, OptionsOfGraphsWereIgnoredWithoutSize) {
   check.request.map = goal.map;
   check.request.robots = goal.robots;
   check.request.options.passages = PlanOptions::PASSAGES_OFF;
-  ASSERT_TRUE(ros::service::call("split_mapf/check_solvable", check));
+  ASSERT_TRUE(callService("check_solvable", check));
   EXPECT_EQ(check.response.outcome, PlanOutcome::INVALID_OPTION) << check.response.reason;
 }
 
