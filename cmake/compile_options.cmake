@@ -10,6 +10,7 @@ if(SPLIT_MAPF_SANITIZE)
     add_compile_options(-Wno-tsan)
   endif()
   add_link_options(-fsanitize=${SPLIT_MAPF_SANITIZE})
+  add_compile_definitions(SPLIT_MAPF_SANITIZED)  # random tests draw less: test/support/long_run.h
 endif()
 
 function(split_mapf_compile_options target)

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <map>
 #include <set>
 
@@ -13,6 +13,7 @@
 #include "split_mapf/core/release_fraction.h"
 #include "split_mapf/core/validate.h"
 #include "support/ascii_grid.h"
+#include "support/long_run.h"
 #include "support/random_plan.h"
 
 namespace split_mapf {
@@ -298,12 +299,12 @@ TEST(ExecutionGraph, AThousandRobotsAreBuiltInMilliseconds) {
     // Each on a row of its own, shifted, so that vertices lie apart in memory.
     for (std::uint32_t t = 0; t <= kSteps; ++t) plan.paths.back().push_back(robot * 8 + t % 8);
   }
-  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t begin = std::clock();  // of the processor: others may use it as well
   const ExecutionGraph graph = graphOf(plan, kRobots * 8, 0.5);
-  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+  const double took_ms = 1000.0 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   EXPECT_EQ(graph.precedence().size(), kRobots * (kSteps + 1));
-  RecordProperty("build_ms", std::to_string(took.count()));
-  EXPECT_LT(took.count(), 150) << "ten times what it takes alone on a slow core";
+  RecordProperty("build_ms", std::to_string(took_ms));
+  EXPECT_LT(took_ms, test::kIsSanitized ? 1500 : 150) << "ten times what it takes on a slow core";
 }
 
 }  // namespace

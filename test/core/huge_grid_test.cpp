@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <memory>
 #include <random>
 #include <utility>
@@ -180,7 +180,7 @@ TEST(Interruption, IsHeardInEachStage) {
 
 TEST(Interruption, IsHeardWithinATenthOfASecond) {
   const std::vector<bool> cells(std::size_t{3000} * 3000, true);
-  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t begin = std::clock();  // of the processor: others may use it as well
   EXPECT_THROW(
       {
         const Deadline deadline(0.02);
@@ -188,8 +188,7 @@ TEST(Interruption, IsHeardWithinATenthOfASecond) {
         for (;;) static_cast<void>(Grid(3000, 3000, cells, deadline).graph(deadline));
       },
       Interrupted);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  EXPECT_LT(took.count(), 0.12);
+  EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 0.12);
 }
 
 }  // namespace

@@ -112,8 +112,8 @@ void driveOnce(const Ground& ground, std::uint64_t seed) {
 }
 
 TEST(DiscExecution, LateRobotsOnPlanningGraphsNeverMeet) {
-  const std::uint64_t grounds = test::isLongRun() ? 100 : 12;
-  const std::uint64_t runs = test::isLongRun() ? 100 : 10;
+  const std::uint64_t grounds = test::draws(12, 100);
+  const std::uint64_t runs = test::draws(10, 100);
   for (std::uint64_t seed = 0; seed < grounds; ++seed) {
     const Ground ground = drawGround(seed);
     for (std::uint64_t run = 0; run < runs; ++run) {
@@ -137,7 +137,7 @@ TEST(DiscExecution, LateRobotsInRealBuildingsNeverMeet) {
       RoadmapOptions options;
       options.robot_radius_m = radius;
       const Ground ground = groundOf(raster, options);
-      for (std::uint64_t run = 0; run < (test::isLongRun() ? 100 : 1); ++run) {
+      for (std::uint64_t run = 0; run < test::draws(1U, 100U); ++run) {
         SCOPED_TRACE(path + ", run " + std::to_string(run));
         driveOnce(ground, run);
         if (HasFailure()) return;
@@ -149,7 +149,7 @@ TEST(DiscExecution, LateRobotsInRealBuildingsNeverMeet) {
 /// What the rule is for: by the grid's rule alone robots do meet there.
 TEST(DiscExecution, TheGridsRuleWouldLetThemMeet) {
   double nearest = 1;
-  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::draws(60U); ++seed) {
     const Ground ground = drawGround(seed % 12);
     RandomEngine engine(seed);
     const Plan plan = test::randomValidPlan(*ground.grid, ground.grid->size() / 2, 30, engine);

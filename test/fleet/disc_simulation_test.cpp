@@ -96,8 +96,8 @@ bool leavesOnlyTogether(const Team& team) {
 }
 
 TEST(DiscSimulation, LateRobotsArriveAndNeverMeet) {
-  const std::uint64_t buildings = test::isLongRun() ? 60 : 4;
-  const std::uint64_t seeds = test::isLongRun() ? 8 : 2;
+  const std::uint64_t buildings = test::draws(4, 60);
+  const std::uint64_t seeds = test::draws(2, 8);
   std::uint32_t runs = 0;
   std::uint32_t refused = 0;
   for (std::uint64_t building = 0; building < buildings; ++building) {
@@ -131,7 +131,7 @@ TEST(DiscSimulation, LateRobotsInRealBuildingsNeverMeet) {
     const std::optional<Team> team = planTeam(raster, test::isLongRun() ? 30 : 12, 1);
     if (!team) continue;
     ++teams;
-    for (std::uint64_t seed = 0; seed < (test::isLongRun() ? 6 : 1); ++seed) {
+    for (std::uint64_t seed = 0; seed < test::draws(1U, 6U); ++seed) {
       SCOPED_TRACE(path);
       runTeam(*team, 0.03, seed);
       if (HasFailure()) return;

@@ -129,7 +129,7 @@ void expectWell(Drive& run) {
 template <typename What>
 void forSeeds(std::uint64_t seeds, const What& what, std::uint64_t more = 20,
               Scene (*scene)(std::uint64_t) = sceneOf) {
-  const std::uint64_t all = test::isLongRun() ? more * seeds : seeds;
+  const std::uint64_t all = test::draws(seeds, more * seeds);
   for (std::uint64_t seed = 0; seed < all && !::testing::Test::HasFatalFailure(); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Drive run(seed, scene(seed));

@@ -225,12 +225,12 @@ void runBusyHall(std::uint64_t seed, std::uint32_t robots, int ticks, bool distu
 }
 
 TEST(RollingFleet, GoesOnForEverWithoutCollisions) {
-  const std::uint64_t seeds = test::isLongRun() ? 100 : 3;
+  const std::uint64_t seeds = test::draws(3, 100);
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) runBusyHall(seed, 10, 3000, false);
 }
 
 TEST(RollingFleet, GoesOnWithDelaysDeathsAndARestart) {
-  const std::uint64_t seeds = test::isLongRun() ? 300 : 6;
+  const std::uint64_t seeds = test::draws(6, 300);
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) runBusyHall(seed, 10, 2000, true);
 }
 

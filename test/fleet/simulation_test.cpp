@@ -9,6 +9,7 @@
 #include "split_mapf/core/validate.h"
 #include "support/ascii_grid.h"
 #include "support/disc_checker.h"
+#include "support/long_run.h"
 #include "support/random_plan.h"
 #include "support/small_instances.h"
 
@@ -207,7 +208,8 @@ void expectDiscsApart(std::uint64_t seed) {
 }
 
 TEST(Simulation, TenThousandRunsWithoutCollisionOrDeadlock) {
-  for (std::uint64_t seed = 0; seed < 10000 && !HasFailure(); ++seed) expectDiscsApart(seed);
+  for (std::uint64_t seed = 0; seed < test::draws(10000U) && !HasFailure(); ++seed)
+    expectDiscsApart(seed);
 }
 
 TEST(DiscChecker, SeesDiscsThatMeetBetweenTwoMoments) {

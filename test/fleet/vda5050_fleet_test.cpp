@@ -48,7 +48,7 @@ std::uint32_t expectWell(const Vda5050Mishaps& mishaps, std::uint64_t seed) {
 }
 
 void expectAllWell(const Vda5050Mishaps& mishaps, bool all_arrive) {
-  const std::uint64_t seeds = test::isLongRun() ? 400 : 25;
+  const std::uint64_t seeds = test::draws(25, 400);
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const std::uint32_t absent = expectWell(mishaps, seed);

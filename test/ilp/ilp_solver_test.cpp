@@ -141,7 +141,7 @@ TEST(IlpSolver, RefusesAModelThatIsTooLargeWithItsSize) {
 TEST(IlpSolver, ReturnsThePlanAndItsGapWhenTheEffortIsSpent) {
   const Instance instance = test::generatedInstance(16, 0.1, 60);
   const SolveResult result =
-      makeSolver(Objective::kSumOfCosts, {}, 20000).solve(instance, Deadline(60));
+      makeSolver(Objective::kSumOfCosts, {}, 6000).solve(instance, Deadline(60));
   ASSERT_EQ(result.termination, Termination::kSolved) << result.message;
   EXPECT_TRUE(validate(instance, *result.plan).empty());
   EXPECT_LE(result.lower_bound, sumOfCostsOf(*result.plan));

@@ -38,7 +38,7 @@ TEST(OtherObjective, ASumOfCostsAskedForWasThriceThatOfTheOther) {
 
 TEST(OtherObjective, EachIsAtLeastAsGoodAtItself) {
   std::uint32_t compared = 0;
-  const std::uint64_t seeds = test::isLongRun() ? 2000 : 60;
+  const std::uint64_t seeds = test::draws(60, 2000);
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     GeneratorOptions options;

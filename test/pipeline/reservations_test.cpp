@@ -83,7 +83,7 @@ void expectHonest(const Instance& instance, const Reservations& reserved, const 
 }
 
 TEST(Reservations, AreKeptByEverySolverThatTakesThemAsABruteForceSearchFinds) {
-  const std::uint64_t cases = test::isLongRun() ? 2000 : 150;
+  const std::uint64_t cases = test::draws(150, 2000);
   std::map<std::string, int> solved;
   int solvable = 0;
   for (std::uint64_t seed = 0; seed < cases; ++seed) {

@@ -12,6 +12,7 @@
 
 #include "split_mapf/core/random.h"
 #include "support/ascii_grid.h"
+#include "support/long_run.h"
 #include "support/meeting.h"
 
 namespace split_mapf {
@@ -155,7 +156,7 @@ class RandomCases : public ::testing::TestWithParam<Run> {};
 TEST_P(RandomCases, LeastWeightThenEarliestArrival) {
   const auto [may_evict, hasty] = GetParam();
   std::uint32_t found = 0;
-  for (std::uint64_t seed = 0; seed < 4000; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::draws(4000U); ++seed) {
     const Case c = randomCase(seed);
     ReservationTable table(c.grid->size());
     for (std::uint32_t i = 0; i < c.placed.size(); ++i) table.insert(i, c.placed[i]);
@@ -189,7 +190,7 @@ TEST_P(RandomCases, LeastWeightThenEarliestArrival) {
     }
     EXPECT_EQ(robotsInTheWay(table.paths(), answer.path), met) << "seed " << seed;
   }
-  EXPECT_GT(found, 1000U);
+  EXPECT_GT(found, test::draws(1000U));
 }
 
 INSTANTIATE_TEST_SUITE_P(EvictionSearch, RandomCases,
@@ -201,7 +202,7 @@ INSTANTIATE_TEST_SUITE_P(EvictionSearch, RandomCases,
 
 TEST(GapSearch, GoesOnFromWhereARobotIsUnderWay) {
   std::uint32_t found = 0;
-  for (std::uint64_t seed = 0; seed < 4000; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::draws(4000U); ++seed) {
     Case c = randomCase(seed);
     if (c.placed.empty()) continue;
     ReservationTable table(c.grid->size());
@@ -236,7 +237,7 @@ TEST(GapSearch, GoesOnFromWhereARobotIsUnderWay) {
       EXPECT_EQ(weight, 0U) << "seed " << seed;
     }
   }
-  EXPECT_GT(found, 1000U);
+  EXPECT_GT(found, test::draws(1000U));
 }
 
 TEST(EvictionSearch, OneSearchServesManyQuestions) {

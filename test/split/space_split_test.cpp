@@ -9,6 +9,7 @@
 #include "split_mapf/generate/generator.h"
 #include "split_mapf/solvability/solvability.h"
 #include "support/ascii_grid.h"
+#include "support/long_run.h"
 #include "support/small_instances.h"
 
 namespace split_mapf {
@@ -53,7 +54,7 @@ class SpaceSplitOf : public testing::TestWithParam<std::tuple<double, StateAssig
 
 TEST_P(SpaceSplitOf, RandomMapsIsSound) {
   const auto [density, assignment] = GetParam();
-  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::draws(6U); ++seed) {
     for (const std::uint32_t robots : {1U, 60U, 300U}) {
       const Instance instance = test::generatedInstance(32, density, robots, seed);
       if (checkSolvable(instance).answer != Solvability::kSolvable) continue;

@@ -15,7 +15,7 @@ constexpr std::uint64_t kLongRunCases = 4000;
 const std::vector<OracleCase>& oracleCases() {
   static const std::vector<OracleCase> cases = [] {
     std::vector<OracleCase> list;
-    const std::uint64_t count = isLongRun() ? kLongRunCases : kCases;
+    const std::uint64_t count = draws(kCases, kLongRunCases);
     for (std::uint64_t seed = 0; seed < count; ++seed) {
       const Instance instance = smallInstance(seed);
       list.push_back({seed, instance, optimalCost(instance, Objective::kMakespan),
