@@ -49,9 +49,8 @@ QString legendText() {
 
 PlayerPanel::PlayerPanel(QWidget* parent)
     : rviz::Panel(parent), replay_([this](const std::string& fault) {
-        QMetaObject::invokeMethod(
-            link_fault_, [this, fault] { link_fault_->setText(QString::fromStdString(fault)); },
-            Qt::QueuedConnection);
+        QMetaObject::invokeMethod(link_fault_, "setText", Qt::QueuedConnection,
+                                  Q_ARG(QString, QString::fromStdString(fault)));
       }) {
   auto* rows = new QVBoxLayout(this);
   add_display_ = new QPushButton("Add a display SplitMapf/Plan");
