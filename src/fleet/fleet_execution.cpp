@@ -35,6 +35,14 @@ MotionTimes motionOf(const FleetOptions& options) {
   return times;
 }
 
+void requireEdge(const Grid& grid, Vertex from, Vertex to, const std::string& id) {
+  const auto next = grid.graph().neighbours(from);
+  if (std::find(next.begin(), next.end(), to) != next.end()) return;
+  throw InputError("the execution that was kept leads robot " + quote(id) + " from cell " +
+                   toString(grid.cellOf(from)) + " to " + toString(grid.cellOf(to)) +
+                   ", where this map has no way");
+}
+
 Precedence orderOf(const FleetSnapshot& snapshot, const Grid& grid) {
   if (snapshot.width != grid.width() || snapshot.height != grid.height()) {
     throw InputError("the execution that was kept is on a grid of " +
@@ -54,6 +62,8 @@ Precedence orderOf(const FleetSnapshot& snapshot, const Grid& grid) {
         throw InputError("the execution that was kept leads robot " + quote(kept.id) + " to cell " +
                          toString(visit.cell) + ", which is not free on this map");
       }
+      const bool goes_on = !visits.empty() && visits.back().robot == robot;
+      if (goes_on) requireEdge(grid, visits.back().vertex, vertex, kept.id);
       visits.push_back({vertex, robot, visit.step, kNoVisit, kNoVisit});
     }
   }

@@ -15,7 +15,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kFormat = "split_mapf execution 2";
+constexpr const char* kFormat = "split_mapf execution 3";
+constexpr const char* kDigits = "0123456789abcdef";
 
 json toJson(const FleetSnapshot::Robot& robot) {
   json sequences = json::array();
@@ -56,6 +57,76 @@ FleetSnapshot::Robot robotOf(const json& from) {
   return robot;
 }
 
+/// Any bytes as text: two digits each.
+std::string hexOf(const std::string& bytes) {
+  std::string text;
+  text.reserve(2 * bytes.size());
+  for (const char byte : bytes) {
+    const auto value = static_cast<unsigned char>(byte);
+    text.push_back(kDigits[value >> 4U]);
+    text.push_back(kDigits[value & 15U]);
+  }
+  return text;
+}
+
+/// @throws InputError where it is no such text.
+std::string bytesOf(const std::string& hex) {
+  std::string bytes;
+  bytes.reserve(hex.size() / 2);
+  for (std::size_t i = 0; i < hex.size(); i += 2) {
+    const char* const high = std::strchr(kDigits, hex[i]);
+    const char* const low = i + 1 < hex.size() ? std::strchr(kDigits, hex[i + 1]) : nullptr;
+    if (high == nullptr || low == nullptr || *high == '\0' || *low == '\0') {
+      throw InputError("its plan is not written in pairs of hexadecimal digits");
+    }
+    bytes.push_back(static_cast<char>(16 * (high - kDigits) + (low - kDigits)));
+  }
+  return bytes;
+}
+
+json toJson(const FleetSnapshot::Part& part) {
+  json left_behind = json::array();
+  for (const FleetSnapshot::LeftBehind& robot : part.left_behind) {
+    json way = json::array();
+    for (const PlanePoint& point : robot.way) way.push_back({point.x, point.y});
+    left_behind.push_back({{"id", robot.id}, {"way", std::move(way)}, {"removed", robot.removed}});
+  }
+  json faults = json::array();
+  for (const FleetSnapshot::Fault& fault : part.faults) {
+    faults.push_back({{"id", fault.id}, {"code", fault.code}, {"message", fault.message}});
+  }
+  return {{"plan", hexOf(part.plan)},
+          {"number", part.number},
+          {"elapsed", part.elapsed_sec},
+          {"planned", part.planned_sec},
+          {"ids", part.ids},
+          {"left_behind", std::move(left_behind)},
+          {"faults", std::move(faults)}};
+}
+
+FleetSnapshot::Part partOf(const json& from) {
+  FleetSnapshot::Part part;
+  part.plan = bytesOf(from.at("plan").get<std::string>());
+  part.number = from.at("number").get<std::uint32_t>();
+  part.elapsed_sec = from.at("elapsed").get<double>();
+  part.planned_sec = from.at("planned").get<double>();
+  part.ids = from.at("ids").get<std::vector<std::string>>();
+  for (const json& robot : from.at("left_behind")) {
+    FleetSnapshot::LeftBehind left;
+    left.id = robot.at("id").get<std::string>();
+    left.removed = robot.at("removed").get<bool>();
+    for (const json& point : robot.at("way")) {
+      left.way.push_back({point.at(0).get<double>(), point.at(1).get<double>()});
+    }
+    part.left_behind.push_back(std::move(left));
+  }
+  for (const json& fault : from.at("faults")) {
+    part.faults.push_back({fault.at("id").get<std::string>(), fault.at("code").get<std::int32_t>(),
+                           fault.at("message").get<std::string>()});
+  }
+  return part;
+}
+
 [[noreturn]] void fail(const std::string& path, const std::string& what) {
   throw InputError("the execution file '" + path + "' " + what);
 }
@@ -76,18 +147,19 @@ void writeExecution(const std::string& path, const FleetSnapshot& snapshot) {
   for (const FleetSnapshot::Robot& robot : snapshot.robots) robots.push_back(toJson(robot));
   json blocked = json::array();
   for (const Cell cell : snapshot.blocked) blocked.push_back({cell.x, cell.y});
-  const json all = {{"format", kFormat},
-                    {"plan_id", snapshot.plan_id},
-                    {"size", {snapshot.width, snapshot.height}},
-                    {"elapsed", snapshot.elapsed_sec},
-                    {"step", snapshot.step_sec},
-                    {"release", snapshot.release},
-                    {"release_ahead", snapshot.release_ahead},
-                    {"paused", snapshot.all_paused},
-                    {"cancelled", snapshot.cancelled},
-                    {"rolling", snapshot.rolling},
-                    {"blocked", std::move(blocked)},
-                    {"robots", std::move(robots)}};
+  json all = {{"format", kFormat},
+              {"plan_id", snapshot.plan_id},
+              {"size", {snapshot.width, snapshot.height}},
+              {"elapsed", snapshot.elapsed_sec},
+              {"step", snapshot.step_sec},
+              {"release", snapshot.release},
+              {"release_ahead", snapshot.release_ahead},
+              {"paused", snapshot.all_paused},
+              {"cancelled", snapshot.cancelled},
+              {"rolling", snapshot.rolling},
+              {"blocked", std::move(blocked)},
+              {"robots", std::move(robots)}};
+  if (snapshot.part) all["part"] = toJson(*snapshot.part);
   const std::string text = textOf(path, all);
   const std::string fresh = path + ".new";
   {
@@ -122,6 +194,7 @@ std::optional<FleetSnapshot> readExecution(const std::string& path) {
     snapshot.rolling = all.value("rolling", false);
     for (const json& cell : all.at("blocked")) snapshot.blocked.push_back(cellOf(cell));
     for (const json& robot : all.at("robots")) snapshot.robots.push_back(robotOf(robot));
+    if (all.contains("part")) snapshot.part = partOf(all.at("part"));
     return snapshot;
   } catch (const json::exception& error) {
     fail(path, std::string("cannot be read: ") + error.what());

@@ -56,6 +56,37 @@ TEST_F(ExecutionFile, GivesBackWhatWasWritten) {
   EXPECT_FALSE(readExecution(path));
 }
 
+TEST_F(ExecutionFile, KeepsThePartOfAPlanOfRobotsThatHaveSize) {
+  const std::string path = pathOf("fleet.json");
+  FleetSnapshot snapshot;
+  FleetSnapshot::Part part;
+  for (int byte = 0; byte < 256; ++byte) part.plan.push_back(static_cast<char>(byte));
+  part.number = 2;
+  part.elapsed_sec = 7.5;
+  part.planned_sec = 9;
+  part.ids = {"a", "b"};
+  part.left_behind = {{"c", {{0.25, -1}, {3, 4}}, true}};
+  part.faults = {{"c", 31, "stands"}};
+  snapshot.part = part;
+  writeExecution(path, snapshot);
+  const auto read = readExecution(path);
+  ASSERT_TRUE(read && read->part);
+  EXPECT_EQ(read->part->plan, part.plan);
+  EXPECT_EQ(read->part->number, 2U);
+  EXPECT_EQ(read->part->elapsed_sec, 7.5);
+  EXPECT_EQ(read->part->planned_sec, 9);
+  EXPECT_EQ(read->part->ids, part.ids);
+  ASSERT_EQ(read->part->left_behind.size(), 1U);
+  EXPECT_EQ(read->part->left_behind[0].id, "c");
+  ASSERT_EQ(read->part->left_behind[0].way.size(), 2U);
+  EXPECT_EQ(read->part->left_behind[0].way[0].x, 0.25);
+  EXPECT_EQ(read->part->left_behind[0].way[1].y, 4);
+  EXPECT_TRUE(read->part->left_behind[0].removed);
+  ASSERT_EQ(read->part->faults.size(), 1U);
+  EXPECT_EQ(read->part->faults[0].code, 31);
+  EXPECT_EQ(read->part->faults[0].message, "stands");
+}
+
 TEST_F(ExecutionFile, NamesWhatIsWrong) {
   for (const char* text : {"", "{}", "[1]", "{\"format\": \"other\"}", "{\"format\""}) {
     try {

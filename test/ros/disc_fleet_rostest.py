@@ -5,6 +5,8 @@ knows the bag alone."""
 
 import copy
 import math
+import os
+import signal
 import tempfile
 
 import rospy
@@ -117,6 +119,41 @@ class DiscFleet(FleetCase):
         self.assertTrue(goal.wait_for_end(PATIENCE), fleet.output())
         self.assertEqual(goal.result().outcome, PlanOutcome.SUCCEEDED, goal.result().message)
         self.assertEqual(self.count(RobotState.ARRIVED), self.ROBOTS)
+        for path in self.plan.paths:
+            self.assert_at_goal(path)
+        self.assert_kept_apart()
+
+    def plan_ids(self):
+        """Of the parts that have begun so far."""
+        return {state.plan_id for state in self.states.messages if state.plan_id}
+
+    def kill_and_start_again(self, fleet):
+        fleet.signal(signal.SIGKILL)
+        fleet.wait()
+        self.assertTrue(os.path.exists(self.file))
+        fleet = self.start_fleet()
+        self.assertTrue(fleet.wait_for_output("taking up again"), fleet.output())
+        return fleet
+
+    def test_goes_on_when_the_executor_was_killed_on_a_leg_and_on_the_graph(self):
+        fleet = self.start_fleet()
+        self.start_robots(speed=SPEED)
+        self.send()
+        pause = rospy.ServiceProxy("fleet/pause", PauseRobots)
+        pause.wait_for_service(PATIENCE)
+        self.assertTrue(wait_until(lambda: pause([], True).ok, PATIENCE), fleet.output())
+        self.assertTrue(wait_until(lambda: len(self.plan_ids()) == 1, PATIENCE), fleet.output())
+        self.assertTrue(wait_until(lambda: os.path.exists(self.file), PATIENCE))
+        fleet = self.kill_and_start_again(fleet)
+        self.assertTrue(wait_until(lambda: pause([], False).ok, PATIENCE), fleet.output())
+        self.assertTrue(wait_until(lambda: len(self.plan_ids()) == 2, PATIENCE), fleet.output())
+        self.assertTrue(wait_until(lambda: self.count(RobotState.MOVING) > 2, PATIENCE))
+        fleet = self.kill_and_start_again(fleet)
+        # Who asks for the same again has the execution's end.
+        goal = self.send()
+        self.assertTrue(goal.wait_for_end(PATIENCE), fleet.output())
+        self.assertEqual(goal.result().outcome, PlanOutcome.SUCCEEDED, goal.result().message)
+        self.assertEqual(len(self.plan_ids()), 3)
         for path in self.plan.paths:
             self.assert_at_goal(path)
         self.assert_kept_apart()

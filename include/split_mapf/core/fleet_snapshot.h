@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "split_mapf/core/grid.h"
+#include "split_mapf/core/release_fraction.h"
 
 namespace split_mapf {
 
@@ -27,6 +28,29 @@ struct FleetSnapshot {
     /// The number of the last visit promised to a robot that is held; nothing: it is not.
     std::optional<std::uint32_t> held_at = std::nullopt;
   };
+  /// A robot that did not come to the end of an earlier part.
+  struct LeftBehind {
+    std::string id;
+    std::vector<PlanePoint> way;  ///< it is somewhere on it [m]
+    bool removed = false;         ///< it has been taken off the floor since
+  };
+  /// Why a robot did not come to its goal in an earlier part.
+  struct Fault {
+    std::string id;
+    std::int32_t code = 0;
+    std::string message;
+  };
+  /// Of a plan of robots that have size, which is executed in parts: what the ground of the present
+  /// part is built from. What else is kept is of that part.
+  struct Part {
+    std::string plan;  ///< all of it, in bytes that who keeps it can read
+    std::uint32_t number = 0;
+    double elapsed_sec = 0;        ///< since the beginning of the first part
+    double planned_sec = 0;        ///< of all parts
+    std::vector<std::string> ids;  ///< of the robots that it began with
+    std::vector<LeftBehind> left_behind;
+    std::vector<Fault> faults;
+  };
   std::string plan_id;
   std::uint32_t width = 0;  ///< of the grid [cells]
   std::uint32_t height = 0;
@@ -39,6 +63,7 @@ struct FleetSnapshot {
   bool rolling = false;  ///< without goals: who gave them has to give them again
   std::vector<Cell> blocked;
   std::vector<Robot> robots;
+  std::optional<Part> part = std::nullopt;
 };
 
 }  // namespace split_mapf

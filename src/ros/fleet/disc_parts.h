@@ -70,4 +70,7 @@ class DiscParts {
   double reach_m_ = 0;
 };
 
+/// A plan as it is kept: without the moment at which it was sent. Equal plans have equal bytes.
+std::string bytesOf(MultiRobotPlan plan);
+
 }  // namespace split_mapf

@@ -13,7 +13,6 @@
 #include "ros/fleet/fleet_server.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
-#include "split_mapf/io/execution_file.h"
 #include "split_mapf/ros/orientation.h"
 #include "split_mapf/ros/plan_messages.h"
 
@@ -181,25 +180,6 @@ void FleetServer::replan(const FleetQuestion& question, RollingReplanner* window
   if (index_.size() != fleet_->robots()) index_.clear();
   keepLocked(time);
   publishRoutes(time);
-}
-
-/// Before any route that depends on it is sent.
-void FleetServer::keepLocked(double time) {
-  // Robots that have size stop at the end of what is released, should this process die.
-  if (options_.execution_file.empty() || fleet_->isRestoring() || discs_) return;
-  if (fleet_->snapshotVersion() == kept_version_) return;
-  kept_version_ = fleet_->snapshotVersion();
-  FleetSnapshot kept = fleet_->snapshot(time);
-  kept.plan_id = plan_id_;
-  kept.blocked.clear();
-  for (const std::uint32_t cell : blocked_) kept.blocked.push_back(grid_->geometry.cellOf(cell));
-  try {
-    writeExecution(options_.execution_file, kept);
-    counts_.trouble.clear();
-  } catch (const InputError& error) {
-    counts_.trouble = error.what();
-    ROS_ERROR_THROTTLE(10, "%s; this node could not go on after a restart", error.what());
-  }
 }
 
 void FleetServer::publishRoutes(double /*time*/) {

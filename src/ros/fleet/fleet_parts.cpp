@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <utility>
+#include <vector>
 
 #include "ros/convert/fleet_messages.h"
 #include "ros/fleet/fleet_server.h"
@@ -25,25 +26,37 @@ FleetServer::Waiting FleetServer::checkDiscs(const Goal& goal) const {
   return {goal, plan, std::move(grid), options, std::move(discs), 0};
 }
 
-/// Robots of the part stand where the one before brought them. Cells are closed before anybody is
-/// promised anything. @throws InputError as DiscParts::part().
-void FleetServer::beginPart(const std::vector<std::string>& ids, double now) {
+/// The next part, for the robots that go on; it can be built again from what is noted here.
+FleetPart FleetServer::partOf(const std::vector<std::string>& ids) {
+  part_ids_ = ids;
+  part_left_out_ = left_out_;
   std::vector<LeftOut> ways;
   for (const auto& [id, way] : left_out_) ways.push_back(way);
   FleetPart part = discs_->part(part_, ids, ways);
-  faults_.insert(faults_.end(), part.faults.begin(), part.faults.end());
   part_options_.moves = part.moves;
   part_options_.plans_anew = part.plans_anew;
-  auto fleet = std::make_unique<FleetExecution>(part.grid, part.ids, part.plan, part_options_, now);
-  grid_->grid = part.grid;
-  setFleet(std::move(fleet));
-  reindex();
-  closeLeftOut();
-  closeCells();
+  return part;
+}
+
+/// Robots of the part stand where the one before brought them. @throws InputError as
+/// DiscParts::part().
+void FleetServer::beginPart(const std::vector<std::string>& ids, double now) {
+  const FleetPart part = partOf(ids);
+  faults_.insert(faults_.end(), part.faults.begin(), part.faults.end());
+  setFleet(std::make_unique<FleetExecution>(part.grid, part.ids, part.plan, part_options_, now));
+  enterPart(part);
   if (all_paused_) fleet_->pauseAll(true);
   for (const std::string& id : paused_) {
     if (const auto robot = fleet_->find(id)) fleet_->pause(*robot, true);
   }
+}
+
+/// Cells are closed before anybody is promised anything.
+void FleetServer::enterPart(const FleetPart& part) {
+  grid_->grid = part.grid;
+  reindex();
+  closeLeftOut();
+  closeCells();
 }
 
 /// Vertices of the part that are near to robots left behind.

@@ -154,7 +154,8 @@ void FleetServer::takeGoal(Goal goal) {
 
 /// Whether a plan brings the robots of the present execution to their present goals.
 bool FleetServer::isTheSame(const MultiRobotPlan& plan) const {
-  if (isOnRoadmap(plan) || plan.paths.size() != fleet_->robots()) return false;
+  if (isOnRoadmap(plan)) return discs_ && bytesOf(plan) == discs_plan_;
+  if (discs_ || plan.paths.size() != fleet_->robots()) return false;
   return std::all_of(plan.paths.begin(), plan.paths.end(), [this](const RobotPath& path) {
     const auto robot = fleet_->find(path.robot_id);
     if (!robot || path.cells.empty()) return false;
@@ -282,6 +283,7 @@ void FleetServer::begin(const Waiting& waiting, double now) {
     const std::uint32_t legs = plan.departure_steps + plan.arrival_steps;
     planned_sec_ = (plan.makespan + legs) * waiting.options.step_sec;
     part_options_ = waiting.options;
+    discs_plan_ = bytesOf(plan);
     beginPart(ids, now);
   } else {
     const Plan plan = planOf(waiting.message, waiting.grid);
@@ -300,42 +302,6 @@ void FleetServer::setFleet(std::unique_ptr<FleetExecution> fleet) {
   ++epoch_;
   kept_version_ = 0;
   index_.clear();
-}
-
-void FleetServer::takeUpAgain(double now) {
-  if (!kept_may_exist_) return;
-  try {
-    const std::optional<FleetSnapshot> kept = readExecution(options_.execution_file);
-    if (!kept) {
-      kept_may_exist_ = false;
-      return;
-    }
-    const PlanningGrid grid = latestGrid(maps_, options_.server.goal);
-    kept_may_exist_ = false;
-    fleet_ = std::make_unique<FleetExecution>(grid.grid, *kept, options_.fleet, now);
-    changeGrid(grid);
-    for (const Cell cell : kept->blocked) blocked_.insert(grid_->geometry.indexOf(cell));
-    plan_id_ = kept->plan_id;
-    began_ = now - kept->elapsed_sec;
-    planned_sec_ = 0;
-    for (const FleetSnapshot::Robot& robot : kept->robots) {
-      planned_sec_ = std::max(planned_sec_, robot.planned_sec);
-    }
-    ++epoch_;
-    all_paused_ = kept->all_paused;
-    for (const FleetSnapshot::Robot& robot : kept->robots) {
-      if (robot.paused) paused_.insert(robot.id);
-    }
-    if (kept->rolling) startTasks();
-    ROS_WARN("taking up again the execution of %s that was under way when this node ended",
-             counted(kept->robots.size(), "robot").c_str());
-  } catch (const GoalError&) {
-    ROS_WARN_THROTTLE(10, "an execution was under way when this node ended; waiting for its map");
-  } catch (const InputError& error) {
-    kept_may_exist_ = false;
-    counts_.trouble = std::string("the execution that was under way is lost: ") + error.what();
-    ROS_ERROR("%s", counts_.trouble.c_str());
-  }
 }
 
 void FleetServer::takeCancel(const Goal& goal) {

@@ -116,6 +116,11 @@ class FleetServer {
   void requireNames(const MultiRobotPlan& plan) const;
   void begin(const Waiting& waiting, double now);
   void beginPart(const std::vector<std::string>& ids, double now);
+  void enterPart(const FleetPart& part);
+  FleetPart partOf(const std::vector<std::string>& ids);
+  void keepPart(FleetSnapshot& kept) const;
+  void takeUpFleet(const FleetSnapshot& kept, double now);
+  FleetPart takeUpPart(const FleetSnapshot::Part& kept, const nav_msgs::OccupancyGrid& map);
   bool goOnToNextPart(const std::vector<FleetRobotStatus>& status, double now);
   bool isLastPart() const { return !discs_ || part_ + 1 == DiscParts::kParts; }
   void leaveOut(std::uint32_t robot, const std::vector<FleetRobotStatus>& status);
@@ -184,6 +189,11 @@ class FleetServer {
   std::uint32_t part_ = 0;
   FleetOptions part_options_;
   std::map<std::string, LeftOut> left_out_;
+  /// Which robots the part began with, who had been left behind by then, and the plan's bytes: what
+  /// its ground is built from after a restart.
+  std::vector<std::string> part_ids_;
+  std::map<std::string, LeftOut> part_left_out_;
+  std::string discs_plan_;
   std::vector<bool> left_out_cells_;  ///< by vertex of the part
   std::vector<RobotFault> faults_;
   bool all_paused_ = false;

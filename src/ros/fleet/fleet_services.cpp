@@ -42,6 +42,7 @@ bool FleetServer::removeRobot(RemoveRobot::Request& request, RemoveRobot::Respon
   response.ok = robot.has_value();
   if (!robot && left_out_.erase(request.robot_id) > 0) {
     closeLeftOut();
+    kept_version_ = 0;
     response.ok = true;
     response.message = "robot " + quote(request.robot_id) + " is off the floor";
     return true;
