@@ -23,6 +23,7 @@
 #include "tool/disc_claims.h"
 #include "tool/files.h"
 #include "tool/robot_options.h"
+#include "tool/video.h"
 
 namespace split_mapf::tool {
 namespace {
@@ -104,7 +105,20 @@ Picture draw(const CommandLine& line, const Wishes& wishes, const Grid& grid,
   return drawPlan(grid, paths, *layout, phase, options);
 }
 
-/// Writes a film of the plan.
+/// Hands the frames of a film to its writer, the last one for a second.
+template <typename Writer, typename Finish>
+void addFrames(const PlanFilm& film, int frames, Writer& writer, const Finish& finish) {
+  const auto step = [&](int frame) { return film.lastStep() * frame / (frames - 1); };
+  Picture last;
+  for (int frame = 0; frame < frames; ++frame) {
+    last = film.at(step(frame));
+    writer.add(last);
+  }
+  for (int held = 0; held < kFramesPerSec; ++held) writer.add(last);
+  finish();
+}
+
+/// Writes a film as GIF or, by its name, as MP4.
 void writeFilm(const Wishes& wishes, const PlanFilm& film) {
   const double duration = wishes.film_duration.value_or(
       std::clamp(film.lastStep() * kFilmSecPerStep, kLeastFilmSec, kAutomaticFilmSec));
@@ -114,16 +128,14 @@ void writeFilm(const Wishes& wishes, const PlanFilm& film) {
                       " is too long, at most " + std::to_string(kMostFrames) + " are expected");
   }
   const auto frames = static_cast<int>(wanted);
-  const auto step = [&](int frame) { return film.lastStep() * frame / (frames - 1); };
-  GifWriter gif({film.at(0), film.at(film.lastStep() / 2), film.at(film.lastStep())},
-                100 / kFramesPerSec);
-  Picture last;
-  for (int frame = 0; frame < frames; ++frame) {
-    last = film.at(step(frame));
-    gif.add(last);
+  const Picture last = film.at(film.lastStep());
+  if (isVideo(wishes.film_file)) {
+    Video video(wishes.film_file, last.width_px, last.height_px, kFramesPerSec);
+    addFrames(film, frames, video, [&] { video.finish(); });
+  } else {
+    GifWriter gif({film.at(0), film.at(film.lastStep() / 2), last}, 100 / kFramesPerSec);
+    addFrames(film, frames, gif, [&] { gif.write(wishes.film_file); });
   }
-  for (int held = 0; held < kFramesPerSec; ++held) gif.add(last);
-  gif.write(wishes.film_file);
   std::cout << wishes.film_file << ": " << last.width_px << "x" << last.height_px << " pixels, "
             << std::lround(wanted / kFramesPerSec) + 1 << " s\n";
 }
@@ -190,7 +202,9 @@ ExitCode runRender(const Call& call) {
   line.offerFlag("heat", "show how often each cell is used, instead of paths");
   line.offerFlag("regions", "show the regions, buffers and intermediate states of a space split");
   line.offer("phase", "N", "with --regions: the phase to show, from 0 on (0)");
-  line.offer("animate", "FILE", "write the robots' motion as animated GIF");
+  line.offer(
+      "animate", "FILE",
+      "write the robots' motion as animated GIF, or as MP4 where FILE ends in .mp4 (ffmpeg)");
   line.offer("duration", "S",
              "with --animate: how long it takes (a quarter second a step, 2 to 20)");
   line.offer("scale", "PIXELS",

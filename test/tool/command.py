@@ -20,6 +20,7 @@ class CommandTest(unittest.TestCase):
     """A test with a directory of its own, in which every call runs."""
 
     maxDiff = None
+    environment = {}  # of the calls, beside the test's own
 
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix="split_mapf_test_")
@@ -52,7 +53,8 @@ class CommandTest(unittest.TestCase):
     def run_command(self, *arguments):
         result = subprocess.run(
             [COMMAND, *map(str, arguments)], cwd=self.folder, stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=PATIENCE_S)
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=PATIENCE_S,
+            env=dict(os.environ, **self.environment))
         # Decoded here: text mode would turn carriage returns into new lines.
         result.stdout = result.stdout.decode()
         result.stderr = result.stderr.decode()

@@ -1,6 +1,8 @@
 """generate -> plan -> validate -> render, and what validate and render say of broken plans."""
 
 import json
+import os
+import shutil
 import struct
 import unittest
 
@@ -128,6 +130,25 @@ class BrokenPlanTest(CommandTest):
         self.assertRegex(text, r"^film.gif: \d+x\d+ pixels, 4 s\n$")
         with open(self.path("film.gif"), "rb") as file:
             self.assertEqual(file.read(6), b"GIF89a")
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not here")
+    def test_render_writes_a_video(self):
+        self.write_plan([[0, 0], [1, 0], [2, 0]], [[0, 2], [1, 2], [2, 2]])
+        render = ["render", *self.files("p"), "--plan", "plan.json", "--scale", 31]
+        text = self.expect(0, *render, "--animate", "film.mp4", "--duration", 2).stdout
+        self.assertRegex(text, r"^film.mp4: \d+x\d+ pixels, 3 s\n$")
+        with open(self.path("film.mp4"), "rb") as file:
+            self.assertEqual(file.read(8)[4:], b"ftyp")
+        self.assertNotIn("film.mp4.part", os.listdir(self.folder))
+        # A folder in the place of what ffmpeg would write.
+        os.mkdir(self.path("other.mp4.part"))
+        self.expect_refusal(["other.mp4: ffmpeg "], *render, "--animate", "other.mp4")
+
+    def test_render_without_ffmpeg_says_so(self):
+        self.write_plan([[0, 0], [1, 0], [2, 0]])
+        self.environment = {"PATH": self.folder}
+        self.expect_refusal(["x.mp4", "needs the program ffmpeg", ".gif"], "render",
+                            *self.files("p"), "--plan", "plan.json", "--animate", "x.mp4")
 
     def test_render_refuses_views_that_do_not_go_together(self):
         self.write_plan([[0, 0], [1, 0], [2, 0]])
