@@ -1,7 +1,7 @@
 # The ROS-free core library and the command.
 file(GLOB SPLIT_MAPF_CORE_SOURCES CONFIGURE_DEPENDS
   src/core/*.cpp src/solvability/*.cpp src/parallel/*.cpp src/roadmap/*.cpp src/io/*.cpp src/search/*.cpp
-  src/generate/*.cpp src/solver/*.cpp src/solver/*/*.cpp src/split/*.cpp src/portfolio/*.cpp src/improve/*.cpp
+  src/generate/*.cpp src/solver/*.cpp src/solver/*/*.cpp src/split/*.cpp src/plugin/*.cpp src/portfolio/*.cpp src/improve/*.cpp
   src/pipeline/*.cpp src/pipeline/*/*.cpp src/fleet/*.cpp)
 # What links GLPK is no part of it: see ilp.cmake.
 list(FILTER SPLIT_MAPF_CORE_SOURCES EXCLUDE REGEX "/src/solver/(ilp\\.cpp|ilp/|available/)")
@@ -16,7 +16,7 @@ target_include_directories(split_mapf_core
   PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src ${YAML_CPP_INCLUDE_DIR})
 target_link_libraries(split_mapf_core
   PUBLIC Threads::Threads
-  PRIVATE Boost::boost ${YAML_CPP_LIBRARIES} nlohmann_json::nlohmann_json PNG::PNG ZLIB::ZLIB)
+  PRIVATE Boost::boost ${YAML_CPP_LIBRARIES} nlohmann_json::nlohmann_json PNG::PNG ZLIB::ZLIB ${CMAKE_DL_LIBS})
 # Animations need giflib; without it the command says so.
 find_package(GIF 5)
 if(GIF_FOUND)

@@ -29,6 +29,16 @@ foreach(room server replay fleet scene)
   target_link_libraries(split_mapf_ros_${room} PUBLIC split_mapf_ros)
 endforeach()
 
+# Solvers of other packages, where pluginlib is; without it ~solver_plugins is refused.
+find_package(pluginlib QUIET)
+if(pluginlib_FOUND)
+  target_compile_definitions(split_mapf_ros_server PRIVATE SPLIT_MAPF_HAS_PLUGINLIB)
+  target_include_directories(split_mapf_ros_server SYSTEM PRIVATE ${pluginlib_INCLUDE_DIRS})
+  target_link_libraries(split_mapf_ros_server PUBLIC ${pluginlib_LIBRARIES})
+else()
+  message(STATUS "pluginlib is not here: planner_node loads no solvers of other packages")
+endif()
+
 foreach(node planner_node replay_node executor_node fake_robots_node)
   add_executable(${node} src/node/${node}.cpp src/node/run_node.cpp src/node/end_signal.cpp)
   target_include_directories(${node} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)

@@ -30,7 +30,8 @@ target_compile_options(fleet_client_rostest PRIVATE ${SPLIT_MAPF_WARNINGS} -O1)
 add_dependencies(fleet_client_rostest planner_node split_mapf plan_two_robots)
 
 foreach(name replay recording lifecycle sim_time big_maps termination)
-  add_rostest(test/ros/${name}.test DEPENDENCIES planner_node replay_node split_mapf)
+  add_rostest(test/ros/${name}.test DEPENDENCIES planner_node replay_node split_mapf
+    split_mapf_downstream_plugins split_mapf_misbehaving_plugins)
 endforeach()
 add_rostest(test/ros/launch.test
   DEPENDENCIES planner_node replay_node executor_node fake_robots_node warehouse_manager)

@@ -11,6 +11,8 @@ add_test(NAME downstream_plain
 find_program(SPLIT_MAPF_PYTHON python3 HINTS /usr/bin)
 add_test(NAME tool
   COMMAND ${CMAKE_COMMAND} -E env SPLIT_MAPF_COMMAND=$<TARGET_FILE:split_mapf>
+    SPLIT_MAPF_EXAMPLE_PLUGINS=$<TARGET_FILE:split_mapf_downstream_plugins>
+    SPLIT_MAPF_MISBEHAVING_PLUGINS=$<TARGET_FILE:split_mapf_misbehaving_plugins>
     ${SPLIT_MAPF_PYTHON} -B -m unittest discover -s ${CMAKE_CURRENT_SOURCE_DIR}/test/tool -p *_test.py)
 set_tests_properties(tool PROPERTIES TIMEOUT 600)
 

@@ -14,7 +14,7 @@ set -euo pipefail
 readonly ground='core solvability parallel'
 readonly files="$ground roadmap io generate"
 readonly searches="$ground search solver"
-readonly planning="$files search solver split portfolio improve pipeline fleet"
+readonly planning="$files search solver split plugin portfolio improve pipeline fleet"
 declare -rA allowed=(
   [core]=''
   [solvability]='core'
@@ -25,6 +25,7 @@ declare -rA allowed=(
   [search]='core parallel'
   [solver]="$ground search"
   [split]='core solvability'
+  [plugin]="$ground solver split"
   [portfolio]="$searches split"
   [improve]="$searches split portfolio"
   [pipeline]="$files $searches split portfolio improve"
@@ -212,6 +213,7 @@ test_the_checker() {
   require_found src/core/room.cpp '#  include  "split_mapf/io/room.h" // indented'
   require_found src/solver/ilp/glpk_model.cpp '#include "split_mapf/split/room.h"'
   require_found src/split/room.cpp '#include "split_mapf/solver/room.h"'
+  require_found src/pipeline/room.cpp '#include "split_mapf/plugin/room.h"'
   require_found src/io/room.cpp '#include "split_mapf/split/room.h"'
   require_found src/roadmap/room.cpp '#include "split_mapf/io/room.h"'
   require_found src/solver/room.cpp '#include "split_mapf/roadmap/room.h"'

@@ -1,5 +1,7 @@
 // The planner node: wiring only.
 
+#include <cstdio>
+#include <cstdlib>
 #include <string>
 
 #include <ros/ros.h>
@@ -13,11 +15,13 @@
 #include "ros/server/plan_publisher.h"
 #include "ros/server/plan_server.h"
 #include "ros/server/plan_services.h"
+#include "ros/server/plugin_loader.h"
 #include "ros/server/server_diagnostics.h"
 #include "solver/available/available_solvers.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/parallel/executor.h"
 #include "split_mapf/pipeline/planner.h"
+#include "split_mapf/plugin/methods.h"
 
 namespace {
 
@@ -33,6 +37,16 @@ std::uint32_t workersFor(const split_mapf::ServerOptions& options) {
   return split_mapf::Executor::machineThreads();
 }
 
+/// Ends the process where a plug-in's thread does not stop: it may use what is taken down next.
+void endBesideRunningThreads() {
+  const int running = split_mapf::abandonedCalls();
+  if (running == 0) return;
+  ROS_ERROR("%d searches of plug-ins do not stop; the node ends without them", running);
+  ros::shutdown();
+  std::fflush(stdout);
+  std::_Exit(0);
+}
+
 void run(split_mapf::NodeContext& context) {
   const split_mapf::ServerOptions options = split_mapf::readServerOptions(context.parameters);
   for (const std::string& name : split_mapf::findUnknownParameters(context.parameters)) {
@@ -41,16 +55,19 @@ void run(split_mapf::NodeContext& context) {
 
   const std::uint32_t workers = workersFor(options);
   split_mapf::Executor executor(workers);
-  const split_mapf::SolverRegistry& solvers = split_mapf::availableSolvers();
-  const split_mapf::Planner planner(solvers, executor);
+  split_mapf::PluginLoader plugins;
+  split_mapf::Methods methods;
+  methods.solvers = split_mapf::availableSolvers();
+  plugins.load(options.solver_plugins, methods);
+  const split_mapf::Planner planner(methods.solvers, executor, methods.splitters);
   planner.requireValid(options.goal.plan);
 
   const split_mapf::MapSource maps(context.node, options.map_file);
   const split_mapf::PoseTransformer transformer;
   const split_mapf::GoalPlanner goal_planner(planner, options, maps, transformer);
   split_mapf::PlanPublisher publisher(context.node, context.private_node, options.publish_paths);
-  split_mapf::PlanServices services(context.private_node, solvers, options, maps, goal_planner,
-                                    kServiceThreads);
+  split_mapf::PlanServices services(context.private_node, methods.solvers, options, maps,
+                                    goal_planner, kServiceThreads);
   const split_mapf::QueueLimits limits{options.max_queued_goals, workers};
   split_mapf::PlanServer server(context.private_node, goal_planner, publisher, limits);
   const split_mapf::ServerDiagnostics diagnostics(context.node, context.private_node, server,
@@ -65,6 +82,7 @@ void run(split_mapf::NodeContext& context) {
                       server.shutdown();
                       services.shutdown();
                     });
+  endBesideRunningThreads();
 }
 
 }  // namespace

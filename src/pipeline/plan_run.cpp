@@ -13,6 +13,7 @@
 #include "split_mapf/core/compaction.h"
 #include "split_mapf/core/validate.h"
 #include "split_mapf/core/wording.h"
+#include "split_mapf/split/splitter_failure.h"
 
 namespace split_mapf {
 namespace {
@@ -54,6 +55,9 @@ PlanReport PlanRun::run() {
     if (report_.plan && request_.asked.straighten && !request_.first_plan_only) takeTurnsOut();
   } catch (const Interrupted&) {
     if (!report_.plan) interrupt();
+  } catch (const SplitterFailure& failure) {
+    report_.termination = failure.termination();
+    report_.message = failure.what();
   } catch (const std::bad_alloc&) {
     if (!report_.plan) {
       report_.termination = Termination::kMemoryLimit;
@@ -162,6 +166,7 @@ Plan PlanRun::join(const Splitter& splitter, RepairLoop::Outcome& outcome) {
   log_.enterStage("stitch");
   const std::vector<PieceHandle> pieces = piecesOf(splitter.tree());
   Plan plan = stitch(splitter.tree(), outcome.plans, instance_.robots());
+  requireJoined(plan);
   if (pieces.size() == 1) {
     if (!isWhole(*pieces.front(), instance_)) return plan;
     report_.proved_lower_bound =
@@ -183,10 +188,31 @@ Plan PlanRun::join(const Splitter& splitter, RepairLoop::Outcome& outcome) {
                       {passes, executor_.lend(report_.threads), nullptr}, deadline_);
 }
 
+void PlanRun::requireJoined(const Plan& plan) const {
+  // What this package cuts fits together; accept() looks at it at the end.
+  if (request_.splitter == nullptr || !request_.splitter->from_plugin) return;
+  const std::vector<Violation> violations = validate(instance_, plan, deadline_);
+  if (violations.empty()) return;
+  throw SplitterFailure(
+      Termination::kNoPlanFound,
+      "the pieces that splitter " + request_.splitter->name +
+          " made do not fit together; the first violation: " + violations.front().message);
+}
+
 void PlanRun::takeVerdict(const SolveResult& result) {
-  if (deadline_.expired() && result.termination != Termination::kUnsolvable) return interrupt();
+  if (deadline_.expired() && result.termination != Termination::kUnsolvable) {
+    interrupt();
+    if (!result.message.empty()) report_.message += "; " + result.message;
+    return;
+  }
   report_.termination = result.termination;
   report_.message = result.message;
+  const bool is_foreign = request_.splitter != nullptr && request_.splitter->from_plugin;
+  if (is_foreign && report_.solvable && result.termination == Termination::kUnsolvable) {
+    // A piece has no plan, and its splitter had no other.
+    report_.termination = Termination::kNoPlanFound;
+    report_.message = "a piece of the split has no plan: " + result.message;
+  }
 }
 
 void PlanRun::accept(Plan plan) {

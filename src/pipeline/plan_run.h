@@ -52,6 +52,8 @@ class PlanRun {
   bool callAnother(const RepairLoop::Outcome& outcome);
   /// Joins the pieces' plans and mends the seams.
   Plan join(const Splitter& splitter, RepairLoop::Outcome& outcome);
+  /// @throws SplitterFailure where a plug-in's pieces do not fit together.
+  void requireJoined(const Plan& plan) const;
   void takeVerdict(const SolveResult& result);
   void accept(Plan plan);
   /// Says how good the plan is. @pre there is one.

@@ -8,7 +8,6 @@
 #include <string>
 #include <system_error>
 
-#include "solver/available/available_solvers.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/wording.h"
@@ -22,6 +21,7 @@
 #include "tool/memory_limit.h"
 #include "tool/plan_options.h"
 #include "tool/plan_summary.h"
+#include "tool/plugin_options.h"
 #include "tool/progress_line.h"
 #include "tool/robot_options.h"
 #include "tool/stop_signals.h"
@@ -88,8 +88,9 @@ std::string joined(const std::vector<std::string>& messages) {
 /// One planning call with what has to live through it.
 class PlanCall {
  public:
-  PlanCall(PlanOptions options, Deadline::Clock::time_point begin_of_call)
+  PlanCall(PlanOptions options, Methods methods, Deadline::Clock::time_point begin_of_call)
       : options_(std::move(options)),
+        methods_(std::move(methods)),
         begin_of_call_(begin_of_call),
         stop_(catchStopSignals()),
         executor_(startExecutor(options_.request.threads)) {
@@ -112,7 +113,7 @@ class PlanCall {
 
  private:
   PlanReport plan() {
-    const Planner planner(availableSolvers(), *executor_);
+    const Planner planner(methods_.solvers, *executor_, methods_.splitters);
     planner.requireValid(options_.request);  // before files are read for nothing
     if (std::optional<PlanReport> end = readFiles()) return std::move(*end);
     if (discs_) {
@@ -231,6 +232,7 @@ class PlanCall {
   }
 
   PlanOptions options_;
+  const Methods methods_;
   Deadline::Clock::time_point begin_of_call_;
   std::shared_ptr<const StopFlag> stop_;
   std::unique_ptr<Executor> executor_;
@@ -246,13 +248,14 @@ class PlanCall {
 ExitCode runPlan(const Call& call) {
   CommandLine line("plan", "Plans collision-free paths for the robots of a scenario.");
   declarePlanOptions(line);
+  declarePlugins(line);
   if (!line.parse(call.arguments)) return ExitCode::kOk;
   PlanOptions options = readPlanOptions(line);
   if (!options.output_file.empty() && options.output_file != "-") {
     requireWritable(options.output_file);
     if (options.write_better) requireReplaceable(options.output_file);
   }
-  return PlanCall(std::move(options), call.begin_of_call).run();
+  return PlanCall(std::move(options), readMethods(line), call.begin_of_call).run();
 }
 
 }  // namespace split_mapf::tool

@@ -1,10 +1,10 @@
 #include <iomanip>
 #include <iostream>
 
-#include "solver/available/available_solvers.h"
-#include "split_mapf/split/splitter_registry.h"
+#include "split_mapf/plugin/methods.h"
 #include "tool/command_line.h"
 #include "tool/commands.h"
+#include "tool/plugin_options.h"
 
 namespace split_mapf::tool {
 namespace {
@@ -18,14 +18,16 @@ void printOption(const OptionInfo& option) {
 
 ExitCode runSolvers(const Call& call) {
   CommandLine line("solvers", "Lists the solvers with their options, then the split options.");
+  declarePlugins(line);
   if (!line.parse(call.arguments)) return ExitCode::kOk;
-  for (const std::string& name : availableSolvers().names()) {
-    const SolverInfo& solver = availableSolvers().info(name);
+  const Methods methods = readMethods(line);
+  for (const std::string& name : methods.solvers.names()) {
+    const SolverInfo& solver = methods.solvers.info(name);
     std::cout << name << "\n    " << solver.description << "\n";
     for (const OptionInfo& option : solver.options) printOption(option);
   }
-  for (const std::string& name : builtinSplitters().names()) {
-    const SplitterInfo& splitter = builtinSplitters().info(name);
+  for (const std::string& name : methods.splitters.names()) {
+    const SplitterInfo& splitter = methods.splitters.info(name);
     std::cout << "\nsplit options of splits made by " << name << "\n    " << splitter.description
               << "\n";
     for (const OptionInfo& option : splitter.options) printOption(option);

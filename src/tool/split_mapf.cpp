@@ -1,4 +1,5 @@
 // The command-line tool: picks the subcommand, and turns what it throws into exit codes.
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -8,6 +9,7 @@
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
 #include "split_mapf/pipeline/disc_problem.h"
+#include "split_mapf/plugin/methods.h"
 #include "tool/commands.h"
 
 namespace split_mapf::tool {
@@ -99,5 +101,8 @@ ExitCode runAndReport(const std::vector<std::string>& arguments,
 int main(int argc, char** argv) {
   const auto begin_of_call = split_mapf::Deadline::Clock::now();
   const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
-  return static_cast<int>(split_mapf::tool::runAndReport(arguments, begin_of_call));
+  const int code = static_cast<int>(split_mapf::tool::runAndReport(arguments, begin_of_call));
+  // A plug-in's thread that does not stop may use what an ordinary exit takes down.
+  if (split_mapf::abandonedCalls() > 0) std::_Exit(code);
+  return code;
 }

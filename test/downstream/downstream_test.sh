@@ -33,6 +33,8 @@ fi
 grep -qx 'planned 2 robots, makespan [2-9]' "$scratch/output"
 
 "$scratch/install/lib/split_mapf/split_mapf" --version
+"$scratch/install/lib/split_mapf/split_mapf" solvers \
+  --solver-plugins "$scratch/build/devel/lib/libsplit_mapf_downstream_plugins.so" | grep -x one_by_one
 
 # The installed client finds the installed command, by which it reads files.
 printf 'height 1\nwidth 2\nmap\nE@\n' > "$scratch/a.map"

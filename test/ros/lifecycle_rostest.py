@@ -5,6 +5,7 @@ import os
 import signal
 import unittest
 
+import roslib.packages
 import rosnode
 import rospy
 import rosunit
@@ -13,6 +14,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from ros_processes import (Recorder, SentGoal, action_client, hard_goal, start_program, wait_until,
                            warehouse_goal)
 from split_mapf.msg import PlanOutcome
+from split_mapf.srv import ListSolvers
 
 
 class Lifecycle(unittest.TestCase):
@@ -24,13 +26,13 @@ class Lifecycle(unittest.TestCase):
         if rospy.has_param("/split_mapf"):
             rospy.delete_param("/split_mapf")
 
-    def start(self, *arguments):
-        program = start_program("planner_node", *arguments)
+    def start(self, *arguments, env=None):
+        program = start_program("planner_node", *arguments, env=env)
         self.addCleanup(program.end)
         return program
 
-    def start_ready(self, *arguments):
-        program = self.start(*arguments)
+    def start_ready(self, *arguments, env=None):
+        program = self.start(*arguments, env=env)
         self.assertTrue(program.wait_for_output("ready:"), program.output())
         return program
 
@@ -76,6 +78,10 @@ class Lifecycle(unittest.TestCase):
             self.assertEqual(planner.wait(), 1, argument)
             self.assertIn(expected, planner.output())
             rospy.delete_param("/split_mapf")
+        rospy.set_param("/split_mapf/solver_plugins", ["a/B"])
+        planner = self.start()
+        self.assertEqual(planner.wait(), 1)
+        self.assertIn("~solver_plugins: class 'a/B' is declared by no package", planner.output())
         replay = start_program("replay_node", "_rate:=fast")
         self.addCleanup(replay.end)
         self.assertEqual(replay.wait(), 1)
@@ -90,8 +96,9 @@ class Lifecycle(unittest.TestCase):
         diagnostics = Recorder("/diagnostics", DiagnosticArray)
         self.addCleanup(diagnostics.close)
         planner = self.start_ready("_threads:=2", "_max_queued_goals:=3")
-        sent = SentGoal(action_client(), warehouse_goal())
-        self.assertTrue(sent.wait_for_end(), planner.output())
+        client = action_client()
+        for options in ({"solver": "oracle"}, {}):
+            self.assertTrue(self.plan(client, **options).wait_for_end(), planner.output())
 
         def latest():
             for message in reversed(diagnostics.messages):
@@ -100,7 +107,7 @@ class Lifecycle(unittest.TestCase):
                         return dict(((pair.key, pair.value) for pair in status.values),
                                     level=status.level, summary=status.message)
             return {}
-        self.assertTrue(wait_until(lambda: latest().get("goals finished") == "1"), latest())
+        self.assertTrue(wait_until(lambda: latest().get("goals finished") == "2"), latest())
         values = latest()
         self.assertEqual(values["level"], 0)
         self.assertEqual(values["summary"], "ready")
@@ -108,7 +115,52 @@ class Lifecycle(unittest.TestCase):
         self.assertEqual(values["goals allowed"], "3")
         self.assertEqual(values["goals running"], "0")
         self.assertEqual(values["last outcome"], "SUCCEEDED")
+        self.assertEqual(values["plug-in searches that do not stop"], "0")
         self.assertGreater(float(values["memory [MiB]"]), 1)
+
+    def start_with_plugins(self, *arguments):
+        """With the packages of plug-ins, which stand in the test folder, where ROS looks for some."""
+        folder = os.path.join(roslib.packages.get_pkg_dir("split_mapf"), "test")
+        packages = [os.path.join(folder, name) for name in ("downstream", "plugin/misbehaving")]
+        rospy.set_param("/split_mapf/solver_plugins", [
+            "split_mapf_downstream/OneByOne", "split_mapf_downstream/EveryOther", "misbehaving/Solver"])
+        return self.start_ready(
+            *arguments,
+            env={"ROS_PACKAGE_PATH": ":".join(packages + [os.environ["ROS_PACKAGE_PATH"]])})
+
+    def plan(self, client, **options):
+        goal = warehouse_goal()
+        for name, value in options.items():
+            setattr(goal.options, name, value)
+        return SentGoal(client, goal)
+
+    def test_plans_by_solvers_of_other_packages(self):
+        planner = self.start_with_plugins("_threads:=1")
+        rospy.wait_for_service("/split_mapf/list_solvers", 60)
+        listed = rospy.ServiceProxy("/split_mapf/list_solvers", ListSolvers)()
+        for name in ("one_by_one", "misbehaving", "lacam"):
+            self.assertIn(name, listed.names)
+        client = action_client()
+        for options in ({"solver": "one_by_one"}, {"solver": "lacam", "split": "every_other"}):
+            goal = self.plan(client, **options)
+            self.assertTrue(goal.wait_for_end(), planner.output())
+            self.assertEqual(goal.result().outcome, PlanOutcome.SUCCEEDED, goal.result().message)
+        thrown = self.plan(client, solver="misbehaving", solver_options=["how=throw"])
+        self.assertTrue(thrown.wait_for_end(), planner.output())
+        self.assertEqual(thrown.result().outcome, PlanOutcome.NO_PLAN_FOUND)
+        self.assertIn("threw: no oil", thrown.result().message)
+
+        # One that hangs ends at its limit, others go on, and so does the node, until it is told to end.
+        hung = self.plan(client, solver="misbehaving", solver_options=["how=hang"], time_limit=0.2)
+        self.assertTrue(hung.wait_for_end(), planner.output())
+        self.assertEqual(hung.result().outcome, PlanOutcome.TIMEOUT)
+        self.assertIn("did not stop at its deadline", hung.result().message)
+        other = self.plan(client)
+        self.assertTrue(other.wait_for_end(), planner.output())
+        self.assertEqual(other.result().outcome, PlanOutcome.SUCCEEDED, other.result().message)
+        planner.signal(signal.SIGTERM)
+        self.assertEqual(planner.wait(), 0, planner.output())
+        self.assertIn("1 searches of plug-ins do not stop", planner.output())
 
     def test_holds_its_memory_over_many_goals(self):
         planner = self.start_ready("_threads:=1")

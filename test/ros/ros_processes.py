@@ -75,10 +75,10 @@ class Program:
         self.output_file.close()
 
 
-def start_program(name, *arguments):
+def start_program(name, *arguments, env=None):
     """Starts a program of this package, as roslaunch finds it: rosrun does not look into a devel
     space that lies in the package's own build folder."""
-    return Program(roslib.packages.find_node("split_mapf", name)[0], *arguments)
+    return Program(roslib.packages.find_node("split_mapf", name)[0], *arguments, env=env)
 
 
 def wait_until(condition, patience=PATIENCE):

@@ -52,6 +52,9 @@ struct SplitterInfo {
   bool rescues = false;
   /// Whether it cuts the map, so that a part of it will not do.
   bool cuts_map = false;
+  /// Whether somebody else made it, see plugin/methods.h: a plan of its pieces that is not valid is
+  /// its fault, not one of this package.
+  bool from_plugin = false;
 };
 
 /// Splitters by name. Filled once, then only read: reading is thread-safe.

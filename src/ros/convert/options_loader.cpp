@@ -130,6 +130,7 @@ ServerOptions readAll(ParameterReader& reader) {
       reader.readInteger("max_queued_goals", options.max_queued_goals, {1, 1000}));
   reader.read("publish_paths", options.publish_paths);
   reader.read("map_file", options.map_file);
+  reader.read("solver_plugins", options.solver_plugins);
   return options;
 }
 

@@ -30,7 +30,8 @@ struct ServerOptions {
   GoalOptions goal;  ///< used where a goal leaves an option open
   std::uint32_t max_queued_goals = 8;
   bool publish_paths = false;
-  std::string map_file;  ///< published on `map` when set
+  std::string map_file;                     ///< published on `map` when set
+  std::vector<std::string> solver_plugins;  ///< classes of other packages, see PluginLoader
 };
 
 /// Reads the node's parameters, a struct of name and value; what is missing keeps its default.

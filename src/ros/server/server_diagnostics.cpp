@@ -1,6 +1,7 @@
 #include "ros/server/server_diagnostics.h"
 
 #include "core/resident_memory.h"
+#include "split_mapf/plugin/methods.h"
 #include "split_mapf/ros/outcome.h"
 
 namespace split_mapf {
@@ -21,6 +22,8 @@ void ServerDiagnostics::fill(diagnostic_updater::DiagnosticStatusWrapper& status
   const PlanServerStatus now = server_.status();
   if (now.last_outcome == toString(Outcome::kInternalError)) {
     status.summary(DiagnosticStatus::ERROR, "the last goal met an internal error");
+  } else if (abandonedCalls() > 0) {
+    status.summary(DiagnosticStatus::WARN, "a search of a plug-in does not stop");
   } else if (now.queued + now.running >= limits_.admitted) {
     status.summary(DiagnosticStatus::WARN, "the queue is full");
   } else if (now.running > 0) {
@@ -33,6 +36,7 @@ void ServerDiagnostics::fill(diagnostic_updater::DiagnosticStatusWrapper& status
   status.add("goals allowed", limits_.admitted);
   status.add("goals finished", now.finished);
   status.add("workers", workers_);
+  status.add("plug-in searches that do not stop", abandonedCalls());
   status.add("last outcome", now.last_outcome);
   status.add("last message", now.last_message);
   status.addf("last runtime [s]", "%.3f", now.last_runtime_sec);

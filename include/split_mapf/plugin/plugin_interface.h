@@ -1,0 +1,10 @@
+#pragma once
+
+namespace split_mapf {
+
+/// Goes up with every change that a plug-in built before it does not survive: of SolverPlugin and
+/// SplitterPlugin, and of what they hand over or get (Solver, Splitter, Instance, Plan, Deadline).
+/// A plug-in built for another number is refused when it is loaded.
+constexpr int kPluginInterface = 1;
+
+}  // namespace split_mapf

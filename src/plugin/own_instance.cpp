@@ -1,0 +1,16 @@
+#include "plugin/own_instance.h"
+
+#include <utility>
+
+namespace split_mapf {
+
+Instance ownInstance(const Instance& instance) {
+  DistanceTables::Standing standing(instance.robots());
+  for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {
+    std::shared_ptr<const DistanceTable> table = instance.shareDistances(robot);
+    if (table->isShareable()) standing[robot] = std::move(table);
+  }
+  return Instance(instance.problem(), DistanceExtent::kAll, standing);
+}
+
+}  // namespace split_mapf
