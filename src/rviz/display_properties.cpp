@@ -37,7 +37,7 @@ DisplayProperties::DisplayProperties(rviz::Property* parent)
       least_size(new rviz::FloatProperty(
           "Least Size", 4, "Robots are shown true to size, but never smaller than this [pixels].",
           parent)),
-      trail_steps(new rviz::FloatProperty("Trail", 8, "The last so many steps.", parent)),
+      trail_steps(new rviz::FloatProperty("Trail", 5, "The last so many steps.", parent)),
       late(new rviz::FloatProperty("Late", 1, "A robot so many seconds behind is late.", parent)),
       goals(new rviz::BoolProperty("Goals", true, "A square where each robot ends.", parent)),
       waits(new rviz::BoolProperty("Waits", true, "A white dot on robots that wait.", parent)),

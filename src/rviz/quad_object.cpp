@@ -26,6 +26,9 @@ constexpr const char* kPicture = "split_mapf/disc";
 constexpr std::size_t kCornersAQuad = 4;
 constexpr std::size_t kIndicesAQuad = 6;
 constexpr std::uint32_t kPictureSide = 64;  // [pixels]
+// [pixels] Dots up to here have no picture: that they are not round hardly shows, and a picture is
+// a third of what they cost where GL is software.
+constexpr float kMostPlainDot = 5;
 
 /// White; opaque within the disc, and a pixel's width of shade at its edge.
 void providePicture() {
@@ -57,8 +60,8 @@ void addPicture(Ogre::Pass& pass) {
   unit->setTextureFiltering(Ogre::FO_LINEAR, Ogre::FO_LINEAR, Ogre::FO_POINT);
 }
 
-/// One a mesh, as each has dots of its own size.
-Ogre::MaterialPtr makeMaterial(bool discs) {
+/// Each mesh has its own, as it has dots of its own size.
+Ogre::MaterialPtr makeMaterial(bool pictured) {
   static std::uint64_t number = 0;
   const Ogre::MaterialPtr material = Ogre::MaterialManager::getSingleton().create(
       "split_mapf/" + std::to_string(number++),
@@ -71,7 +74,7 @@ Ogre::MaterialPtr makeMaterial(bool discs) {
   pass->setDepthWriteEnabled(false);
   pass->setDepthBias(1);
   pass->setCullingMode(Ogre::CULL_NONE);
-  if (discs) addPicture(*pass);
+  if (pictured) addPicture(*pass);
   return material;
 }
 
@@ -93,17 +96,16 @@ std::vector<std::uint32_t> indicesOf(std::size_t quads) {
   return indices;
 }
 
+bool isOpaque(const QuadMesh& mesh) {
+  return std::all_of(mesh.corners().begin(), mesh.corners().end(),
+                     [](const QuadVertex& corner) { return corner.colour >> 24U == 0xFFU; });
+}
+
 }  // namespace
 
-QuadObject::QuadObject(bool discs) {
-  const Ogre::MaterialPtr material = makeMaterial(discs);
-  material_ = material->getName();
-  pass_ = material->getTechnique(0)->getPass(0);
-#if OGRE_VERSION < ((1 << 16) | (10 << 8))
-  setMaterial(material->getName());
-#else
-  setMaterial(material);
-#endif
+QuadObject::QuadObject(bool discs) : plain_(makeMaterial(false)) {
+  if (discs) pictured_ = makeMaterial(true);
+  use(plain_);
   mRenderOp.operationType = Ogre::RenderOperation::OT_TRIANGLE_LIST;
   mRenderOp.useIndexes = true;
   mRenderOp.vertexData = OGRE_NEW Ogre::VertexData;
@@ -117,18 +119,35 @@ QuadObject::QuadObject(bool discs) {
 QuadObject::~QuadObject() {
   OGRE_DELETE mRenderOp.vertexData;
   OGRE_DELETE mRenderOp.indexData;
-  Ogre::MaterialManager::getSingleton().remove(material_);
+  Ogre::MaterialManager::getSingleton().remove(plain_->getName());
+  if (pictured_.get() != nullptr) {
+    Ogre::MaterialManager::getSingleton().remove(pictured_->getName());
+  }
+}
+
+void QuadObject::use(const Ogre::MaterialPtr& material) {
+#if OGRE_VERSION < ((1 << 16) | (10 << 8))
+  setMaterial(material->getName());
+#else
+  setMaterial(material);
+#endif
 }
 
 void QuadObject::choose(const QuadMesh& mesh) {
   const bool dots = mesh.kind() == MeshKind::kDots;
+  const bool round = pictured_.get() != nullptr && !(dots && mesh.dotSize() <= kMostPlainDot);
+  const Ogre::MaterialPtr& material = round ? pictured_ : plain_;
+  use(material);
   mRenderOp.useIndexes = mesh.kind() == MeshKind::kPieces;
   mRenderOp.operationType = dots ? Ogre::RenderOperation::OT_POINT_LIST
                             : mesh.kind() == MeshKind::kLines
                                 ? Ogre::RenderOperation::OT_LINE_LIST
                                 : Ogre::RenderOperation::OT_TRIANGLE_LIST;
-  pass_->setPointSize(dots ? mesh.dotSize() : 1);
-  pass_->setPointSpritesEnabled(dots && pass_->getNumTextureUnitStates() > 0);
+  Ogre::Pass& pass = *material->getTechnique(0)->getPass(0);
+  pass.setPointSize(dots ? mesh.dotSize() : 1);
+  pass.setPointSpritesEnabled(dots && round);
+  // What covers all below need not be mixed with it.
+  pass.setSceneBlending(!round && isOpaque(mesh) ? Ogre::SBT_REPLACE : Ogre::SBT_TRANSPARENT_ALPHA);
 }
 
 void QuadObject::reserve(std::size_t corners) {

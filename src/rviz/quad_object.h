@@ -1,9 +1,8 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 
-#include <OgrePass.h>
+#include <OgreMaterial.h>
 #include <OgreSimpleRenderable.h>
 
 #include "ros/scene/quad_mesh.h"
@@ -28,9 +27,10 @@ class QuadObject : public Ogre::SimpleRenderable {
  private:
   void reserve(std::size_t corners);
   void choose(const QuadMesh& mesh);
+  void use(const Ogre::MaterialPtr& material);
 
-  std::string material_;
-  Ogre::Pass* pass_ = nullptr;  // the material's
+  Ogre::MaterialPtr plain_;
+  Ogre::MaterialPtr pictured_;  // with the disc; null: the mesh has none
 
   std::size_t capacity_ = 0;  // [corners]
 };
