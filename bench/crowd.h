@@ -36,7 +36,7 @@ struct Crowd {
     SearchQuery query;
     query.robot = robot;
     query.start = instance.start(robot);
-    query.distances = &instance.distances(robot);
+    query.distances = instance.shareDistances(robot).get();  // the instance keeps it
     query.others = &table;
     query.mode = OthersAre::kCounted;
     query.latest_arrival = 2 * instance.shortestLength(robot) + 10;

@@ -166,46 +166,12 @@ void DistanceTable::widen() const {
   narrow_.shrink_to_fit();
 }
 
-DistanceTables::DistanceTables(const Graph& graph, const std::vector<Vertex>& goals,
-                               DistanceExtent extent)
-    : graph_(&graph), goals_(goals), extent_(extent), slots_(goals.size()) {}
-
-DistanceTables::DistanceTables(const Grid& grid, const std::vector<Vertex>& goals,
-                               DistanceExtent extent, const Standing& standing)
-    : grid_(&grid), goals_(goals), extent_(extent), slots_(goals.size()) {
-  for (std::size_t i = 0; i < standing.size(); ++i) slots_[i].table = standing[i];
-}
-
-DistanceTables::DistanceTables(const Grid& grid, const std::vector<Vertex>& starts,
-                               const std::vector<Vertex>& goals,
-                               std::shared_ptr<const DistanceTables> known,
-                               const Standing& standing)
-    : DistanceTables(grid, goals, DistanceExtent::kOnDemand, standing) {
-  starts_ = starts;
-  known_ = std::move(known);
-}
-
-std::shared_ptr<const DistanceTable> DistanceTables::make(std::uint32_t i,
-                                                          const Deadline& deadline) const {
-  if (starts_.empty()) {
-    const Graph& graph = graph_ != nullptr ? *graph_ : grid_->graph(deadline);
-    return std::make_shared<const DistanceTable>(graph, goals_[i], extent_, deadline);
-  }
-  return std::make_shared<const DistanceTable>(goals_[i],
-                                               DistanceGuide{grid_, starts_[i], known_->share(i)});
-}
-
-const DistanceTable& DistanceTables::find(std::uint32_t i, const Deadline& deadline) const {
-  Slot& slot = slots_[i];
-  std::call_once(slot.once, [&] {
-    if (!slot.table) slot.table = make(i, deadline);
-  });
-  return *slot.table;
-}
-
-std::shared_ptr<const DistanceTable> DistanceTables::share(std::uint32_t i) const {
-  (*this)[i];
-  return slots_[i].table;
+std::size_t DistanceTable::bytes() const {
+  std::size_t bytes = sizeof *this + narrow_.capacity() * sizeof narrow_[0] +
+                      page_of_.capacity() * sizeof page_of_[0] +
+                      wide_.capacity() * sizeof wide_[0] + queue_.capacity() * sizeof queue_[0];
+  if (guided_) bytes += bytesOfGuide();
+  return bytes;
 }
 
 }  // namespace split_mapf

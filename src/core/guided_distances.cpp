@@ -4,6 +4,13 @@
 #include "core/guided_search.h"
 
 namespace split_mapf {
+namespace {
+
+// A guided search takes about five times as long a vertex as one of all: at this share of the
+// vertices it has taken more than half as long.
+constexpr std::size_t kShareWorthCompleting = 8;
+
+}  // namespace
 
 DistanceTable::DistanceTable(Vertex goal, DistanceGuide guide) : goal_(goal) {
   startOnDemand(guide.grid->graph());
@@ -26,16 +33,42 @@ bool DistanceTable::expandGuided(Vertex from, Vertex v) const {
       continue;
     }
     settle(u, next);
+    ++search.settled;
     search.open.push_back(u);
     met = met || u == v;
   }
   return met;
 }
 
+std::size_t DistanceTable::bytesOfGuide() const {
+  const GuidedSearch& search = *guided_;
+  return sizeof search + sizeof(Vertex) * (search.open.capacity() + search.longer[0].capacity() +
+                                           search.longer[1].capacity());
+}
+
+bool DistanceTable::isWorthCompleting() const {
+  const GuidedSearch& search = *guided_;
+  return search.guide.may_complete &&
+         search.settled * kShareWorthCompleting > std::size_t{graph_->size()};
+}
+
+void DistanceTable::complete() const {
+  DistanceTable all(*graph_, goal_);
+  narrow_ = std::move(all.narrow_);
+  wide_ = std::move(all.wide_);
+  std::vector<std::uint32_t>().swap(page_of_);
+  guided_.reset();
+  graph_ = nullptr;
+}
+
 std::uint32_t DistanceTable::searchGuided(Vertex v) const {
   GuidedSearch& search = *guided_;
   for (;;) {
     while (!search.open.empty()) {
+      if (isWorthCompleting()) {
+        complete();
+        return (*this)(v);
+      }
       const Vertex from = search.open.back();
       search.open.pop_back();
       if (expandGuided(from, v)) return (*this)(v);
@@ -45,6 +78,7 @@ std::uint32_t DistanceTable::searchGuided(Vertex v) const {
     for (const Vertex u : search.longer[0]) {
       if (isKnown(u)) continue;
       settle(u, search.length - search.bound(u));
+      ++search.settled;
       search.open.push_back(u);
     }
     search.longer[0].clear();

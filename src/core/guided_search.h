@@ -44,6 +44,7 @@ struct DistanceTable::GuidedSearch {
   std::uint32_t length = 0;                   // of the ways on which vertices are expanded
   std::vector<Vertex> open;                   // known, on ways of that length, not expanded
   std::array<std::vector<Vertex>, 2> longer;  // met on ways that are one and two steps longer
+  std::size_t settled = 0;                    // vertices
 };
 
 }  // namespace split_mapf

@@ -5,11 +5,16 @@
 #include <unordered_map>
 #include <utility>
 
+#include "core/table_pool.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
 
 namespace split_mapf {
 namespace {
+
+// Tables that take less in all are computed once and kept: nothing is gained by a look at parts of
+// them only.
+constexpr std::size_t kFewBytes = std::size_t{256} << 20U;
 
 /// Turns cells into vertices; reports cells outside the grid or blocked.
 std::vector<Vertex> locate(const Grid& grid, const std::vector<Cell>& cells, const char* role,
@@ -127,14 +132,33 @@ Instance Instance::fromVertices(std::shared_ptr<const Grid> grid, const std::vec
 
 Instance Instance::stretchOf(const Instance& whole, const std::vector<Vertex>& starts,
                              const std::vector<Vertex>& goals) {
+  if (whole.isBounded()) return partOf(whole, Problem{whole.sharedGrid(), starts, goals});
   DistanceTables::Standing standing(whole.robots());
   for (std::uint32_t i = 0; i < whole.robots(); ++i) {
-    if (goals[i] != whole.goal(i) || !whole.distances(i).isShareable()) continue;
+    if (goals[i] != whole.goal(i) || !whole.hasShareableDistances(i)) continue;
     standing[i] = whole.shareDistances(i);
   }
   return Instance(
       Problem{whole.sharedGrid(), starts, goals},
       std::make_shared<const DistanceTables>(whole.grid(), starts, goals, whole.tables_, standing));
+}
+
+Instance Instance::boundedTo(std::size_t bytes) const {
+  if (!tables_->areAll() || tables_->bytesOfAll() <= std::min(bytes, kFewBytes)) return *this;
+  return Instance(problem_, std::make_shared<const DistanceTables>(
+                                grid(), starts(), goals(), std::make_shared<TablePool>(bytes)));
+}
+
+Instance Instance::partOf(const Instance& whole, Problem problem) {
+  auto tables = std::make_shared<const DistanceTables>(*problem.grid, problem.starts, problem.goals,
+                                                       whole.tables_->pool());
+  return Instance(std::move(problem), std::move(tables));
+}
+
+bool Instance::hasShareableDistances(std::uint32_t robot) const {
+  if (isBounded()) return false;
+  const HeldDistances distances = this->distances(robot);
+  return distances->isShareable();
 }
 
 std::optional<std::uint32_t> findCutOffRobot(const Instance& instance) {

@@ -154,8 +154,9 @@ void writeMovingAiScenario(const std::string& path, const std::string& map_name,
     const Cell goal = scenario.goals[i];
     requireFree(grid, i, "start", start);
     requireFree(grid, i, "goal", goal);
-    const DistanceTable distances(grid.graph(), grid.vertexAt(goal));
-    const std::uint32_t length = distances(grid.vertexAt(start));
+    const Vertex from = grid.vertexAt(start);
+    const DistanceTable distances(grid.vertexAt(goal), DistanceGuide{&grid, from, nullptr, true});
+    const std::uint32_t length = distances(from);
     const bool reachable = length != DistanceTable::kUnreachable;
     out << (reachable ? length / 4 : 0) << '\t' << map_name << '\t' << grid.width() << '\t'
         << grid.height() << '\t' << start.x << '\t' << start.y << '\t' << goal.x << '\t' << goal.y

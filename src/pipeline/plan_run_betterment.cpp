@@ -106,9 +106,12 @@ bool PlanRun::computeDistances() {
       [&](std::uint32_t robot) {
         if (deadline_.expired()) return;
         instance_.distances(robot, deadline_);
+        instance_.shortestLength(robot);
         // Now that the table is in the cache.
         if (choosing) shortest_paths_[robot] = shortestPath(instance_, robot);
         if (seed) ways_[robot] = drawShortestWay(instance_, robot, *seed);
+        // All tables would fill a bound before the first is needed again.
+        instance_.giveUpDistances(robot);
       },
       report_.threads, deadline_);
   return !deadline_.expired();

@@ -5,6 +5,7 @@
 #include "pipeline/band_run.h"
 #include "pipeline/checked_request.h"
 #include "pipeline/plan_run.h"
+#include "pipeline/table_bytes.h"
 
 namespace split_mapf {
 
@@ -18,7 +19,8 @@ PlanReport Planner::plan(const Instance& instance, const PlanRequest& request,
   if (BandRun::isFor(instance, checked, solvers_)) {
     return BandRun(instance, std::move(checked), solvers_, executor_, deadline, listener).run();
   }
-  return PlanRun(instance, std::move(checked), solvers_, executor_, deadline, listener).run();
+  const Instance bounded = instance.boundedTo(tableBytes(request));
+  return PlanRun(bounded, std::move(checked), solvers_, executor_, deadline, listener).run();
 }
 
 }  // namespace split_mapf

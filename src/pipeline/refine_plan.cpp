@@ -12,6 +12,7 @@
 #include "pipeline/refine_request.h"
 #include "pipeline/run_log.h"
 #include "pipeline/step_table.h"
+#include "pipeline/table_bytes.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/validate.h"
 #include "split_mapf/core/wording.h"
@@ -71,7 +72,11 @@ class KnownPlanRun {
 
   void measure(Executor& executor, const Deadline& deadline) {
     executor.forEach(
-        instance_.robots(), [&](std::uint32_t robot) { instance_.distances(robot, deadline); },
+        instance_.robots(),
+        [&](std::uint32_t robot) {
+          instance_.distances(robot, deadline);
+          instance_.shortestLength(robot);
+        },
         report_.threads, deadline);
     deadline.require();
     report_.solvable = true;  // by the plan
@@ -140,7 +145,8 @@ class KnownPlanRun {
 PlanReport refinePlan(const Instance& instance, Plan plan, const PlanRequest& request,
                       const SolverRegistry& solvers, Executor& executor, const Deadline& deadline,
                       const PlanListener& listener) {
-  return KnownPlanRun(instance, request, executor, listener)
+  const Instance bounded = instance.boundedTo(tableBytes(request));
+  return KnownPlanRun(bounded, request, executor, listener)
       .run(std::move(plan), solvers, executor, deadline);
 }
 

@@ -150,7 +150,7 @@ std::uint64_t opposedPairs(const Graph& graph, const std::vector<Path>& paths) {
 }  // namespace
 
 Path shortestPath(const Instance& instance, std::uint32_t robot) {
-  const DistanceTable& distances = instance.distances(robot);
+  const HeldDistances distances = instance.distances(robot);
   Path path = {instance.start(robot)};
   const std::uint32_t length = distances(path.front());
   path.reserve(length + std::size_t{1});

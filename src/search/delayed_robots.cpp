@@ -45,7 +45,7 @@ std::uint32_t drawDelayed(const std::vector<std::uint32_t>& soonest, const Plan&
       [&](std::uint32_t robot) { return plan.paths[robot].size() - 1 - soonest[robot]; }, engine);
 }
 
-std::uint32_t drawLostStep(const Path& path, const DistanceTable& distances, RandomEngine& engine) {
+std::uint32_t drawLostStep(const Path& path, const HeldDistances& distances, RandomEngine& engine) {
   const auto first = static_cast<std::uint32_t>(drawBelow(engine, path.size()));
   const auto size = static_cast<std::uint32_t>(path.size());
   for (std::uint32_t i = 0; i < size; ++i) {

@@ -18,6 +18,6 @@ std::uint32_t drawDelayed(const std::vector<std::uint32_t>& soonest, const Plan&
                           RandomEngine& engine);
 
 /// A step that brings the robot no nearer to its goal; any step where there is none.
-std::uint32_t drawLostStep(const Path& path, const DistanceTable& distances, RandomEngine& engine);
+std::uint32_t drawLostStep(const Path& path, const HeldDistances& distances, RandomEngine& engine);
 
 }  // namespace split_mapf

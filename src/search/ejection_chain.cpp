@@ -72,8 +72,8 @@ bool EjectionChain::mayAllBeEjected(std::size_t link, const Path& by) const {
 
 Path EjectionChain::search(const ChainStart& start, const Link& link, std::uint32_t latest_arrival,
                            bool may_eject, const Deadline& deadline) {
-  EvictionQuery query = {
-      queryFrom(link.path, link.kept, instance_.distances(link.robot), *table_, latest_arrival)};
+  const HeldDistances distances = instance_.distances(link.robot);
+  EvictionQuery query = {queryFrom(link.path, link.kept, *distances, *table_, latest_arrival)};
   query.weights = may_eject ? &weights_ : nullptr;
   query.hasty = start.hasty;
   GapAnswer answer = search_.search(query, deadline);

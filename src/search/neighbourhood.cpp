@@ -60,7 +60,7 @@ void NeighbourhoodPicker::walkInTheWay(const Plan& plan, const PathTable& table,
                                        std::uint32_t robot, std::size_t size,
                                        Neighbourhood& picked) {
   const Path& path = plan.paths[robot];
-  const DistanceTable& distances = instance_.distances(robot);
+  const HeldDistances distances = instance_.distances(robot);
   const auto cost = static_cast<std::uint32_t>(path.size() - 1);
   constexpr int kWalks = 10;
   for (int walk = 0; walk < kWalks && picked.robots.size() < size; ++walk) {
@@ -87,7 +87,7 @@ void NeighbourhoodPicker::takeAroundArrival(const Plan& plan, const PathTable& t
                                             std::uint32_t robot, std::size_t size,
                                             Neighbourhood& picked) {
   const Path& path = plan.paths[robot];
-  const DistanceTable& distances = instance_.distances(robot);
+  const HeldDistances distances = instance_.distances(robot);
   const auto cost = static_cast<std::uint32_t>(path.size() - 1);
   std::uint32_t t = keptUntil(plan, robot, picked);
   Vertex at = positionAt(path, t);

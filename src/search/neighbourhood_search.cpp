@@ -70,8 +70,8 @@ bool NeighbourhoodSearch::pick(double temperature) {
 Path NeighbourhoodSearch::search(const Member& member, std::uint32_t latest_arrival,
                                  const Deadline& deadline) {
   const Path& before = plan_.paths[member.robot];
-  const GapQuery query =
-      queryFrom(before, member.kept, instance_.distances(member.robot), table_, latest_arrival);
+  const HeldDistances distances = instance_.distances(member.robot);
+  const GapQuery query = queryFrom(before, member.kept, *distances, table_, latest_arrival);
   GapAnswer answer = search_.search(query, deadline);
   expansions_ += answer.expansions;
   if (!answer.path.empty()) {

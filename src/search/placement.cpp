@@ -87,7 +87,8 @@ void Placement::searchBatch(std::uint32_t horizon, const Effort& effort, const D
                   query.hasty = effort.hasty;
                   query.latest_arrival = horizon;
                   query.start = instance_.start(candidate.robot);
-                  query.distances = &instance_.distances(candidate.robot);
+                  const HeldDistances distances = instance_.distances(candidate.robot);
+                  query.distances = &*distances;
                   query.departure = candidate.departure;
                   candidate.answer = searches_[member].value.search(query, deadline);
                 });
@@ -120,6 +121,8 @@ bool Placement::place(Candidate& candidate, std::uint64_t displacements) {
     requeue(other);
   }
   table_.insert(candidate.robot, path);
+  // Who was displaced once is likely to be again.
+  if (queued_[candidate.robot] == 1) instance_.giveUpDistances(candidate.robot);
   placed_in_[candidate.robot] = batch_number_;
   plan_.paths[candidate.robot] = std::move(path);
   return true;

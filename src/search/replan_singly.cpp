@@ -103,7 +103,8 @@ class BatchReplanning {
                     table.remove(robot, path);
                     GapQuery query;
                     query.start = instance_.start(robot);
-                    query.distances = &instance_.distances(robot);
+                    const HeldDistances distances = instance_.distances(robot);
+                    query.distances = &*distances;
                     query.placed = &table;
                     query.departure = effort_.departures(robot);
                     query.latest_arrival = static_cast<std::uint32_t>(path.size() - 2);

@@ -77,7 +77,8 @@ class RingBreaking {
     table_.toggleStep(visit.vertex, visit.step);
     GapQuery query;
     query.start = own.front();
-    query.distances = &instance_.distances(visit.robot);
+    const HeldDistances distances = instance_.distances(visit.robot);
+    query.distances = &*distances;
     query.placed = &table_;
     query.departure = departures_(visit.robot);
     GapAnswer answer = search_.search(query, deadline_);

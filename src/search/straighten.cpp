@@ -53,7 +53,8 @@ class Straightening {
     if (own.size() < 3) return {};
     ReservationTable& table = tables_[member];
     table.remove(robot, own);
-    Path path = searches_[member].value.search(own, instance_.distances(robot), table);
+    const HeldDistances distances = instance_.distances(robot);
+    Path path = searches_[member].value.search(own, *distances, table);
     table.insert(robot, own);
     return path;
   }

@@ -153,16 +153,19 @@ SolveResult LacamSolver::run(const SolveRequest& request) const {
   if (auto refusal = refuse(instance, *settings_, deadline)) return *std::move(refusal);
   SolveResult result;
   result.lower_bound = lowerBound(instance, settings_->objective);
-  LacamSearch search(instance, *settings_, deadline);
-  const LacamSearch::Outcome outcome = search.run();
-  result.high_level_nodes = search.configurations();
-  result.low_level_expansions = search.expansions();
+  // Its memory, and the tables that it holds, are free before the plan is polished.
+  auto search = std::make_unique<LacamSearch>(instance, *settings_, deadline);
+  const LacamSearch::Outcome outcome = search->run();
+  result.high_level_nodes = search->configurations();
+  result.low_level_expansions = search->expansions();
   if (outcome != LacamSearch::Outcome::kFound) {
     reportFailure(outcome, *settings_, deadline, result);
     return result;
   }
   result.termination = Termination::kSolved;
-  result.plan = compactInTime(search.plan(), instance.graph().size(), deadline);
+  result.plan = search->plan();
+  search.reset();
+  result.plan = compactInTime(*std::move(result.plan), instance.graph().size(), deadline);
   polish(request, *settings_, result);
   certifyByLowerBound(result, settings_->objective, kName);
   return result;

@@ -22,7 +22,8 @@ ReservedPaths::ReservedPaths(const Instance& instance, const Reservations* reser
   query.reserved = table();
   for (query.robot = 0; query.robot < instance.robots(); ++query.robot) {
     query.start = instance.start(query.robot);
-    query.distances = &instance.distances(query.robot);
+    const HeldDistances distances = instance.distances(query.robot);
+    query.distances = &*distances;
     const SearchAnswer answer = search.search(query, deadline);
     if (answer.interrupted || deadline.expired()) {
       refusal_.emplace().termination = interruptionOf(deadline);

@@ -24,7 +24,7 @@ Border borderOf(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std:
 std::map<Border, std::uint32_t> countCrossings(const Instance& instance, const Ownership& base) {
   std::map<Border, std::uint32_t> crossings;
   for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {
-    const DistanceTable& to_goal = instance.distances(robot);
+    const HeldDistances to_goal = instance.distances(robot);
     Vertex v = instance.start(robot);
     for (std::uint32_t left = to_goal(v); left > 0; --left) {
       const VertexRange neighbours = instance.graph().neighbours(v);

@@ -24,16 +24,17 @@ IntermediateStates::IntermediateStates(const Instance& instance)
 std::vector<std::uint32_t> IntermediateStates::longestFirst(const std::vector<Vertex>& from) const {
   std::vector<std::uint32_t> order(instance_.robots());
   std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return instance_.distances(a)(from[a]) > instance_.distances(b)(from[b]);
-  });
+  std::vector<std::uint32_t> length(order.size());
+  for (const std::uint32_t i : order) length[i] = instance_.distances(i)(from[i]);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return length[a] > length[b]; });
   return order;
 }
 
-IntermediateStates::Query IntermediateStates::queryFor(std::uint32_t robot, Vertex from,
-                                                       std::uint32_t target,
-                                                       TimeShare share) const {
-  return {robot, from, instance_.distances(robot)(from), target, share};
+IntermediateStates::Query IntermediateStates::queryFor(std::uint32_t robot,
+                                                       const DistanceTable& to_goal, Vertex from,
+                                                       std::uint32_t target, TimeShare share) {
+  return {robot, &to_goal, from, to_goal(from), target, share};
 }
 
 std::vector<Vertex> IntermediateStates::choose(const std::vector<Vertex>& from,
@@ -50,7 +51,8 @@ std::vector<Vertex> IntermediateStates::choose(const std::vector<Vertex>& from,
   for (const std::uint32_t i : longestFirst(from)) {
     if (chosen[i] != kNoVertex) continue;
     if (deadline.expired()) return {};
-    const Query query = queryFor(i, from[i], target[i], share);
+    const HeldDistances to_goal = instance_.distances(i);
+    const Query query = queryFor(i, *to_goal, from[i], target[i], share);
     chosen[i] = chooseOnWay(query, engine);
     if (chosen[i] == kNoVertex) chosen[i] = chooseOne(query, engine);
     used_[chosen[i]] = true;
@@ -65,7 +67,8 @@ std::vector<Vertex> IntermediateStates::match(const std::vector<Vertex>& from,
   std::vector<std::vector<Candidate>> candidates(from.size());
   for (std::uint32_t i = 0; i < from.size(); ++i) {
     if (deadline.expired()) return {};
-    candidates[i] = candidatesOf(queryFor(i, from[i], target[i], share), engine);
+    const HeldDistances to_goal = instance_.distances(i);
+    candidates[i] = candidatesOf(queryFor(i, *to_goal, from[i], target[i], share), engine);
   }
   std::vector<Vertex> chosen = assignAtLeastCost(candidates);
   std::fill(used_.begin(), used_.end(), false);
@@ -75,7 +78,8 @@ std::vector<Vertex> IntermediateStates::match(const std::vector<Vertex>& from,
   for (const std::uint32_t i : longestFirst(from)) {
     if (chosen[i] != kNoVertex) continue;
     if (deadline.expired()) return {};
-    chosen[i] = chooseOne(queryFor(i, from[i], target[i], share), engine);
+    const HeldDistances to_goal = instance_.distances(i);
+    chosen[i] = chooseOne(queryFor(i, *to_goal, from[i], target[i], share), engine);
     used_[chosen[i]] = true;
   }
   return chosen;
@@ -88,7 +92,7 @@ Vertex IntermediateStates::chooseOnWay(const Query& query, RandomEngine& engine)
   const std::uint32_t piece_fits = std::min(query.length, query.share.piece);
   const std::uint32_t steps =
       std::clamp(query.target, std::min(rest_fits, piece_fits), std::max(rest_fits, piece_fits));
-  const Vertex v = ways_->after(query.robot, query.from, steps, engine);
+  const Vertex v = ways_->after(query.robot, *query.to_goal, query.from, steps, engine);
   return used_[v] ? kNoVertex : v;
 }
 
@@ -135,7 +139,7 @@ void IntermediateStates::searchWithDetour(const Query& query, std::uint32_t deto
 
 template <typename Visit>
 void IntermediateStates::walk(const Query& query, std::uint32_t detour, Visit visit) {
-  const DistanceTable& to_goal = instance_.distances(query.robot);
+  const DistanceTable& to_goal = *query.to_goal;
   const std::uint32_t deepest = query.share.piece + detour;
   ++search_number_;
   queue_.clear();
@@ -157,8 +161,8 @@ void IntermediateStates::walk(const Query& query, std::uint32_t detour, Visit vi
 }
 
 IntermediateStates::Rating IntermediateStates::rate(const Query& query, Vertex v,
-                                                    std::uint32_t walked) const {
-  const std::uint32_t left = instance_.distances(query.robot)(v);
+                                                    std::uint32_t walked) {
+  const std::uint32_t left = (*query.to_goal)(v);
   return {std::max(walked, query.share.piece) - query.share.piece +
               std::max(left, query.share.rest) - query.share.rest,
           walked + left - query.length,

@@ -27,7 +27,7 @@ class IntermediateStates {
 
   /// From now on robots that choose take the best state on their way, if nobody has it yet.
   /// @param ways  see ShortestWays.
-  void follow(std::vector<Path> ways) { ways_.emplace(instance_, std::move(ways)); }
+  void follow(std::vector<Path> ways) { ways_.emplace(instance_.graph(), std::move(ways)); }
   /// Has the ways drawn again, if there are any, to other states.
   void drawWaysAgain() {
     if (ways_) ways_->forget();
@@ -54,6 +54,7 @@ class IntermediateStates {
   };
   struct Query {
     std::uint32_t robot;
+    const DistanceTable* to_goal;
     Vertex from;
     std::uint32_t length;  // of the shortest way from here
     std::uint32_t target;
@@ -61,14 +62,16 @@ class IntermediateStates {
   };
 
   std::vector<std::uint32_t> longestFirst(const std::vector<Vertex>& from) const;
-  Query queryFor(std::uint32_t robot, Vertex from, std::uint32_t target, TimeShare share) const;
+  /// @param to_goal  the robot's; it outlives the query.
+  static Query queryFor(std::uint32_t robot, const DistanceTable& to_goal, Vertex from,
+                        std::uint32_t target, TimeShare share);
   /// The state on its way that the robot rates best; kNoVertex where it is taken or there is none.
   Vertex chooseOnWay(const Query& query, RandomEngine& engine);
   /// Walks all cells that cost at most `detour` extra steps; calls visit(vertex, steps walked).
   template <typename Visit>
   void walk(const Query& query, std::uint32_t detour, Visit visit);
   std::vector<Candidate> candidatesOf(const Query& query, RandomEngine& engine);
-  Rating rate(const Query& query, Vertex v, std::uint32_t walked) const;
+  static Rating rate(const Query& query, Vertex v, std::uint32_t walked);
   Vertex chooseOne(const Query& query, RandomEngine& engine);
   void searchWithDetour(const Query& query, std::uint32_t detour, RandomEngine& engine);
   void consider(const Query& query, Vertex v, std::uint32_t walked, RandomEngine& engine);

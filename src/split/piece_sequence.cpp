@@ -11,15 +11,20 @@ namespace {
 Piece join(const Piece& left, const Piece& right) {
   Problem joined = left.instance->problem();
   joined.goals = right.instance->goals();
+  Piece piece = left;
+  piece.shares = 2 * std::max(left.shares, right.shares);
+  piece.cut_anew = true;
+  if (right.instance->isBounded()) {
+    piece.instance =
+        std::make_shared<const Instance>(Instance::partOf(*right.instance, std::move(joined)));
+    return piece;
+  }
   DistanceTables::Standing tables;
   for (std::uint32_t i = 0; i < joined.robots(); ++i) {
     tables.push_back(right.instance->shareDistances(i));
   }
-  Piece piece = left;
   piece.instance =
       std::make_shared<const Instance>(std::move(joined), DistanceExtent::kOnDemand, tables);
-  piece.shares = 2 * std::max(left.shares, right.shares);
-  piece.cut_anew = true;
   return piece;
 }
 

@@ -59,11 +59,11 @@ std::uint32_t RegionStates::phasesNeeded(std::uint32_t robot, Vertex from,
   return 1 + regions_.hopsTo(goal, turn)[partition_.ownerships[turn][from]];
 }
 
-const std::uint32_t* RegionStates::nearest(std::uint32_t robot, std::uint32_t turn) const {
+const std::uint32_t* RegionStates::nearest(std::uint32_t robot, const DistanceTable& to_goal,
+                                           std::uint32_t turn) const {
   std::vector<std::uint32_t>& known = nearest_[robot];
   if (known.empty()) {
     known.assign(region_count_[0] + region_count_[1], DistanceTable::kUnreachable);
-    const DistanceTable& to_goal = instance_.distances(robot);
     for (Vertex v = 0; v < instance_.graph().size(); ++v) {
       const std::uint32_t distance = to_goal(v);
       std::uint32_t& even = known[partition_.ownerships[0][v]];
@@ -75,19 +75,21 @@ const std::uint32_t* RegionStates::nearest(std::uint32_t robot, std::uint32_t tu
   return known.data() + (turn == 0 ? 0 : region_count_[0]);
 }
 
-RegionStates::Rater RegionStates::raterFor(const RegionQuestion& question,
-                                           std::uint32_t robot) const {
+RegionStates::Rater RegionStates::raterFor(const RegionQuestion& question, std::uint32_t robot,
+                                           const DistanceTable& to_goal) const {
   const Vertex from = (*question.from)[robot];
   Rater rater{};
   rater.robot = robot;
-  rater.length = instance_.distances(robot)(from);
+  rater.to_goal = &to_goal;
+  rater.length = to_goal(from);
   rater.phases_now = phasesNeeded(robot, from, question.turn);
-  rater.nearest_now = nearest(robot, question.turn)[partition_.ownerships[question.turn][from]];
+  rater.nearest_now =
+      nearest(robot, to_goal, question.turn)[partition_.ownerships[question.turn][from]];
   rater.next_region = question.former != nullptr
                           ? partition_.ownerships[1 - question.turn][(*question.former)[robot]]
                           : kNoRegion;
   rater.next_hops = regions_.hopsTo(instance_.goal(robot), 1 - question.turn);
-  rater.next_nearest = nearest(robot, 1 - question.turn);
+  rater.next_nearest = nearest(robot, to_goal, 1 - question.turn);
   return rater;
 }
 
@@ -118,7 +120,7 @@ std::uint32_t RegionStates::stayPenalty(const RegionQuestion& question, const Ra
 
 std::uint32_t RegionStates::rate(const RegionQuestion& question, const Rater& rater, Vertex v,
                                  std::uint32_t walked) const {
-  const std::uint32_t left = instance_.distances(rater.robot)(v);
+  const std::uint32_t left = (*rater.to_goal)(v);
   const std::uint32_t excess = over(walked, question.share.piece) + over(left, question.share.rest);
   std::uint32_t cost = weighted(options_.lambda1, excess) +
                        kAStep * (walked + left - rater.length) + kAStepOfProgress * left +
@@ -140,7 +142,8 @@ std::uint32_t RegionStates::rate(const RegionQuestion& question, const Rater& ra
 }
 
 void RegionStates::rateAll(const RegionQuestion& question, std::uint32_t robot) {
-  const Rater rater = raterFor(question, robot);
+  const HeldDistances to_goal = instance_.distances(robot);
+  const Rater rater = raterFor(question, robot, *to_goal);
   const Ownership& ownership = *question.ownership;
   const Vertex from = (*question.from)[robot];
   ++search_number_;
@@ -174,13 +177,14 @@ Vertex RegionStates::takeBest(const RegionQuestion& question, std::uint32_t robo
 
 std::vector<std::uint32_t> RegionStates::servingOrder(const RegionQuestion& question) const {
   std::vector<std::uint32_t> order(question.robots.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const std::uint32_t robot_a = question.robots[a];
-    const std::uint32_t robot_b = question.robots[b];
-    return instance_.distances(robot_a)((*question.from)[robot_a]) >
-           instance_.distances(robot_b)((*question.from)[robot_b]);
-  });
+  std::vector<std::uint32_t> length(order.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) {
+    const std::uint32_t robot = question.robots[i];
+    order[i] = i;
+    length[i] = instance_.distances(robot)((*question.from)[robot]);
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return length[a] > length[b]; });
   return order;
 }
 

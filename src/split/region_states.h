@@ -45,6 +45,7 @@ class RegionStates {
   /// What does not change while the cells are rated for one robot.
   struct Rater {
     std::uint32_t robot;
+    const DistanceTable* to_goal;
     std::uint32_t length;       // of the shortest way from here
     std::uint32_t phases_now;   // that the robot needs from here
     std::uint32_t nearest_now;  // how near to the goal its region gets
@@ -54,7 +55,9 @@ class RegionStates {
     const std::uint32_t* next_nearest;
   };
 
-  Rater raterFor(const RegionQuestion& question, std::uint32_t robot) const;
+  /// @param to_goal  the robot's; it outlives the rater.
+  Rater raterFor(const RegionQuestion& question, std::uint32_t robot,
+                 const DistanceTable& to_goal) const;
   /// Rates all cells of the region that the robot may take, into rated_.
   void rateAll(const RegionQuestion& question, std::uint32_t robot);
   std::uint32_t rate(const RegionQuestion& question, const Rater& rater, Vertex v,
@@ -66,7 +69,8 @@ class RegionStates {
   std::vector<std::uint32_t> servingOrder(const RegionQuestion& question) const;
   /// The cell of the least f that nobody has; kNoVertex when there is none.
   Vertex takeBest(const RegionQuestion& question, std::uint32_t robot);
-  const std::uint32_t* nearest(std::uint32_t robot, std::uint32_t turn) const;
+  const std::uint32_t* nearest(std::uint32_t robot, const DistanceTable& to_goal,
+                               std::uint32_t turn) const;
 
   const Instance& instance_;
   const Partition& partition_;

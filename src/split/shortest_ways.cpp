@@ -24,8 +24,8 @@ class Turns {
   std::uint64_t limit_;
 };
 
-Path drawFrom(const Instance& instance, std::uint32_t robot, Vertex from, RandomEngine& engine) {
-  const DistanceTable& distances = instance.distances(robot);
+Path drawFrom(const Graph& graph, const DistanceTable& distances, Vertex from,
+              RandomEngine& engine) {
   const std::uint32_t length = distances(from);
   Turns turns(engine);
   std::vector<Vertex> closer;  // the neighbours that are
@@ -34,7 +34,7 @@ Path drawFrom(const Instance& instance, std::uint32_t robot, Vertex from, Random
   way.push_back(from);
   for (std::uint32_t left = length; left > 0; --left) {
     closer.clear();
-    for (const Vertex v : instance.graph().neighbours(way.back())) {
+    for (const Vertex v : graph.neighbours(way.back())) {
       if (distances(v) < left) closer.push_back(v);
     }
     way.push_back(closer[turns.draw(closer.size())]);
@@ -47,18 +47,19 @@ Path drawFrom(const Instance& instance, std::uint32_t robot, Vertex from, Random
 Path drawShortestWay(const Instance& instance, std::uint32_t robot, std::uint64_t seed) {
   // Far apart for robots next to each other, whatever the seed.
   RandomEngine engine(seed + 0x9e3779b97f4a7c15ULL * (robot + std::uint64_t{1}));
-  return drawFrom(instance, robot, instance.start(robot), engine);
+  const HeldDistances distances = instance.distances(robot);
+  return drawFrom(instance.graph(), *distances, instance.start(robot), engine);
 }
 
-ShortestWays::ShortestWays(const Instance& instance, std::vector<Path> drawn)
-    : instance_(instance), ways_(std::move(drawn)) {}
+ShortestWays::ShortestWays(const Graph& graph, std::vector<Path> drawn)
+    : graph_(graph), ways_(std::move(drawn)) {}
 
-Vertex ShortestWays::after(std::uint32_t robot, Vertex from, std::uint32_t steps,
-                           RandomEngine& engine) {
+Vertex ShortestWays::after(std::uint32_t robot, const DistanceTable& distances, Vertex from,
+                           std::uint32_t steps, RandomEngine& engine) {
   Path& way = ways_[robot];
-  const std::uint32_t left = instance_.distances(robot)(from);
+  const std::uint32_t left = distances(from);
   if (way.size() <= left || way[way.size() - 1 - left] != from) {
-    way = drawFrom(instance_, robot, from, engine);
+    way = drawFrom(graph_, distances, from, engine);
   }
   return way[way.size() - 1 - left + steps];
 }

@@ -14,15 +14,17 @@ namespace split_mapf {
 class ShortestWays {
  public:
   /// @param drawn  a way from each robot's start.
-  ShortestWays(const Instance& instance, std::vector<Path> drawn);
+  ShortestWays(const Graph& graph, std::vector<Path> drawn);
 
-  /// Where a robot that is at `from` is so many steps later. @pre steps <= its distance.
-  Vertex after(std::uint32_t robot, Vertex from, std::uint32_t steps, RandomEngine& engine);
+  /// Where a robot that is at `from` is so many steps later. @param distances  the robot's.
+  /// @pre steps <= its distance.
+  Vertex after(std::uint32_t robot, const DistanceTable& distances, Vertex from,
+               std::uint32_t steps, RandomEngine& engine);
   /// Has all ways drawn again when they are asked for.
   void forget();
 
  private:
-  const Instance& instance_;
+  const Graph& graph_;
   std::vector<Path> ways_;  // each to the goal
 };
 

@@ -147,18 +147,20 @@ Piece SpaceSplit::pieceOf(std::uint32_t phase, std::uint32_t region) const {
   piece.region = region;
   piece.map = grid.map;
   Problem problem{grid.grid, {}, {}};
-  DistanceTables::Standing tables;
+  DistanceTables::Standing tables;  // none of a bounded instance
   for (std::uint32_t robot = 0; robot < from.size(); ++robot) {
     if (ownership[from[robot]] != region) continue;
     piece.robots.push_back(robot);
     problem.starts.push_back(grid.localOf(from[robot]));
     problem.goals.push_back(grid.localOf(to[robot]));
     const bool is_same =
-        !grid.map && to[robot] == instance_.goal(robot) && instance_.distances(robot).isShareable();
+        !grid.map && to[robot] == instance_.goal(robot) && instance_.hasShareableDistances(robot);
     tables.push_back(is_same ? instance_.shareDistances(robot) : nullptr);
   }
   piece.instance =
-      std::make_shared<const Instance>(std::move(problem), DistanceExtent::kOnDemand, tables);
+      instance_.isBounded()
+          ? std::make_shared<const Instance>(Instance::partOf(instance_, problem))
+          : std::make_shared<const Instance>(std::move(problem), DistanceExtent::kOnDemand, tables);
   return piece;
 }
 

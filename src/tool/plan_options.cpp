@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::uint32_t kMostThreads = 1024;
 constexpr std::uint64_t kMostMib = 1ULL << 40U;
+constexpr std::uint64_t kMebibyte = 1ULL << 20U;
 
 std::string textOf(double number) {
   std::ostringstream stream;
@@ -44,6 +45,9 @@ void declarePlanOptions(CommandLine& line) {
              "wall time for the whole call, file reading included (" +
                  textOf(defaults.time_limit_sec) + ")");
   line.offer("memory-limit", "MIB", "memory that the process may use (no limit)");
+  line.offer("table-memory", "MIB",
+             "memory for distance tables; the plan does not depend on it (a quarter of the "
+             "machine's)");
   line.offer("threads", "N", "worker threads (one a processor)");
   line.offer("seed", "N", "all randomness (" + std::to_string(defaults.seed) + ")");
   line.offer("refine", "SECONDS",
@@ -89,6 +93,9 @@ PlanOptions readPlanOptions(const CommandLine& line) {
       static_cast<std::uint32_t>(line.wholeNumber("threads", processors, 1, kMostThreads));
   if (line.has("memory-limit")) {
     options.memory_limit_mib = line.wholeNumber("memory-limit", 0, 1, kMostMib);
+  }
+  if (line.has("table-memory")) {
+    request.table_bytes = line.wholeNumber("table-memory", 0, 1, kMostMib) * kMebibyte;
   }
   options.output_file = line.text("output", "");
   options.write_better = line.has("write-better");

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/table_pool.h"
 #include "split_mapf/core/grid.h"
 #include "split_mapf/core/random.h"
 #include "support/ascii_grid.h"
@@ -57,7 +58,7 @@ TEST(DistanceTable, AgreesWithRelaxationOnRandomGrids) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     const Instance instance = test::smallInstance(seed);
     const std::vector<std::uint32_t> expected = relax(instance.graph(), instance.goal(0));
-    const DistanceTable& table = instance.distances(0);
+    const HeldDistances table = instance.distances(0);
     for (Vertex v = 0; v < instance.graph().size(); ++v) EXPECT_EQ(table(v), expected[v]);
   }
 }
@@ -208,7 +209,10 @@ TEST(DistanceTables, ManyThreadsShareOneTableAGoal) {
   for (std::uint32_t t = 0; t < 8; ++t) {
     threads.emplace_back([&, t] {
       for (++ready; ready < 8;) std::this_thread::yield();
-      for (std::uint32_t i = 0; i < goals.size(); ++i) seen[t].push_back(&tables[i]);
+      for (std::uint32_t i = 0; i < goals.size(); ++i) {
+        const HeldDistances held = tables[i];
+        seen[t].push_back(&*held);
+      }
     });
   }
   for (std::thread& thread : threads) thread.join();
@@ -222,9 +226,79 @@ TEST(DistanceTables, TakeOverATableThatStandsAlready) {
   const auto grid = gridFromAscii({"...."});
   const auto table = std::make_shared<const DistanceTable>(grid->graph(), 3);
   const DistanceTables tables(*grid, {0, 3}, DistanceExtent::kAll, {nullptr, table});
-  EXPECT_EQ(&tables[1], table.get());
+  const HeldDistances held = tables[1];
+  EXPECT_EQ(&*held, table.get());
   EXPECT_EQ(tables.share(1), table);
   EXPECT_EQ(tables[0](3), 3U);
+}
+
+TEST(DistanceTableGuided, CompletesItselfWhereMuchIsAsked) {
+  const auto grid = serpentineGrid(40);
+  const Vertex last = grid->size() - 1;
+  const DistanceTable whole(grid->graph(), 0);
+  const DistanceTable guided(0, {grid.get(), last, nullptr, true});
+  EXPECT_FALSE(guided.isShareable());
+  EXPECT_EQ(guided(last), whole(last));  // round all the serpentine
+  EXPECT_TRUE(guided.isShareable());
+  ASSERT_NE(guided.narrowEntries(), nullptr);
+  for (Vertex v = 0; v < grid->size(); ++v) ASSERT_EQ(guided(v), whole(v));
+}
+
+TEST(DistanceTablesOfAPool, SayTheSameWhateverIsGivenUp) {
+  for (const std::size_t bytes : {std::size_t{1}, std::size_t{4000}, std::size_t{1} << 30U}) {
+    for (std::uint64_t seed = 0; seed < 50; ++seed) {
+      GuidedCase random(seed);
+      const Grid& grid = *random.grid;
+      std::vector<Vertex> starts(5);
+      std::vector<Vertex> goals(5);
+      for (std::uint32_t i = 0; i < 5; ++i) starts[i] = random.draw();
+      for (std::uint32_t i = 0; i < 5; ++i) goals[i] = random.draw();
+      const auto pool = std::make_shared<TablePool>(bytes);
+      const DistanceTables tables(grid, starts, goals, pool);
+      for (std::uint32_t turn = 0; turn < 40; ++turn) {
+        const auto i = static_cast<std::uint32_t>(drawBelow(random.engine, 5));
+        const Vertex v = random.draw();
+        ASSERT_EQ(tables[i](v), DistanceTable(grid.graph(), goals[i])(v));
+        ASSERT_EQ(tables.lengthFrom(starts[i], i),
+                  DistanceTable(grid.graph(), goals[i])(starts[i]));
+        ASSERT_LE(pool->bytes(), bytes);
+        if (turn % 8 == 7) tables.giveUp(i);
+      }
+    }
+  }
+}
+
+TEST(DistanceTablesOfAPool, BelongToOneHolderAtATime) {
+  const auto grid = serpentineGrid(40);
+  const auto pool = std::make_shared<TablePool>(std::size_t{1} << 30U);
+  const auto tables = std::make_unique<const DistanceTables>(*grid, std::vector<Vertex>{9},
+                                                             std::vector<Vertex>{0}, pool);
+  const DistanceTable* first = nullptr;
+  {
+    const HeldDistances one = (*tables)[0];
+    HeldDistances two = (*tables)[0];
+    first = &*one;
+    EXPECT_NE(first, &*two);
+    EXPECT_EQ(one(9), two(9));
+    EXPECT_EQ(pool->bytes(), 0U);
+    two = HeldDistances(*one);  // the other goes back
+    EXPECT_GT(pool->bytes(), 0U);
+  }
+  tables->giveUp(0);
+  EXPECT_EQ(pool->bytes(), 0U);
+  EXPECT_EQ((*tables)[0](9), 9U);
+  EXPECT_GT(pool->bytes(), 0U);
+}
+
+TEST(DistanceTablesOfAPool, LeaveItWithTheirOwner) {
+  const auto grid = serpentineGrid(40);
+  const auto pool = std::make_shared<TablePool>(std::size_t{1} << 30U);
+  for (std::uint32_t round = 0; round < 2; ++round) {
+    const DistanceTables tables(*grid, {9, 8}, {0, 1}, pool);
+    EXPECT_EQ(tables[1](8), 7U);
+    EXPECT_GT(pool->bytes(), 0U);
+  }
+  EXPECT_EQ(pool->bytes(), 0U);
 }
 
 }  // namespace

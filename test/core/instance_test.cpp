@@ -101,7 +101,9 @@ TEST(Instance, LowerBoundsComeFromShortestPaths) {
 TEST(Instance, CopiesShareDistanceTables) {
   const Instance instance = instanceFromAscii({"a.."}, {"..a"});
   const Instance copy = instance;  // NOLINT(performance-unnecessary-copy-initialization)
-  EXPECT_EQ(&instance.distances(0), &copy.distances(0));
+  const HeldDistances own = instance.distances(0);
+  const HeldDistances copied = copy.distances(0);
+  EXPECT_EQ(&*own, &*copied);
 }
 
 TEST(Instance, FromVerticesEqualsFromCells) {
@@ -130,7 +132,8 @@ TEST(Instance, TakesTablesThatStandAlready) {
   const auto table = std::make_shared<const DistanceTable>(grid->graph(), 3);
   const Instance instance(Problem{grid, {0, 1}, {2, 3}}, DistanceExtent::kOnDemand,
                           {nullptr, table});
-  EXPECT_EQ(&instance.distances(1), table.get());
+  const HeldDistances distances = instance.distances(1);
+  EXPECT_EQ(&*distances, table.get());
   EXPECT_EQ(instance.shortestLength(0), 2U);
 }
 
@@ -142,8 +145,10 @@ TEST(Instance, AStretchKeepsTheTableOfWhoIsHomeAtItsEnd) {
   EXPECT_EQ(stretch.goal(0), 3U);
   EXPECT_EQ(stretch.shortestLength(0), 2U);
   EXPECT_EQ(stretch.distances(0)(7), 5U) << "as exact as any, however far away";
-  EXPECT_FALSE(stretch.distances(0).isShareable());
-  EXPECT_EQ(&stretch.distances(1), &whole.distances(1));
+  EXPECT_FALSE(stretch.hasShareableDistances(0));
+  const HeldDistances of_stretch = stretch.distances(1);
+  const HeldDistances of_whole = whole.distances(1);
+  EXPECT_EQ(&*of_stretch, &*of_whole);
 }
 
 TEST(InstanceError, CountsFurtherFaults) {

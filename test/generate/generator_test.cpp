@@ -109,7 +109,7 @@ TEST(Generator, DrawsStartsAndGoalsFromTheLargestPartOnly) {
     options.density = 0.45;
     const GeneratedProblem problem = generateProblem(options);
     const Instance instance(problem.grid, problem.starts, problem.goals);
-    const DistanceTable& table = instance.distances(0);
+    const HeldDistances table = instance.distances(0);
     std::uint32_t reachable = 0;
     for (Vertex v = 0; v < problem.grid->size(); ++v) {
       reachable += table(v) == DistanceTable::kUnreachable ? 0 : 1;

@@ -55,6 +55,7 @@ void expectEqual(const PlanRequest& a, const PlanRequest& b) {
   EXPECT_EQ(a.refine_sec, b.refine_sec);
   EXPECT_EQ(a.seed, b.seed);
   EXPECT_EQ(a.threads, b.threads);
+  EXPECT_EQ(a.table_bytes, b.table_bytes);
 }
 
 void expectEqual(const GoalOptions& a, const GoalOptions& b) {
@@ -85,6 +86,7 @@ XmlRpcValue unusualParameters() {
   p["refine_time"] = 2.5;
   p["seed"] = 42;
   p["threads"] = 3;
+  p["table_memory"] = 100;
   p["robot_radius"] = 0.25;
   p["cell_size"] = 0.5;
   p["clearance"] = 0.05;
@@ -112,6 +114,7 @@ TEST(ServerOptions, HaveTheDefaultsOfTheInterface) {
   EXPECT_EQ(options.goal.plan.refine_sec, 0);
   EXPECT_EQ(options.goal.plan.seed, 0U);
   EXPECT_EQ(options.goal.plan.threads, 0U);
+  EXPECT_EQ(options.goal.plan.table_bytes, 0U);
   EXPECT_EQ(options.goal.roadmap.robot_radius_m, 0);
   EXPECT_EQ(options.goal.roadmap.cell_size_m, 0);
   EXPECT_FALSE(options.goal.occupancy.unknown_is_free);

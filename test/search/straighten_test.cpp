@@ -102,7 +102,8 @@ TEST(StraightSearch, FindsTheFewestTurnsThatOthersLeave) {
       const Path& own = plan.paths[robot];
       if (own.size() < 2) continue;
       table.remove(robot, own);
-      const Path path = search.search(own, instance.distances(robot), table);
+      const HeldDistances distances = instance.distances(robot);
+      const Path path = search.search(own, *distances, table);
       table.insert(robot, own);
       found += path.empty() ? 0 : 1;
       EXPECT_EQ(countTurns(*grid, path.empty() ? own : path), fewestTurns(*grid, plan, robot));

@@ -167,7 +167,8 @@ TEST_P(JointAmongOthers, OneRobotArrivesAsSoonAsASearchInGapsSays) {
     placed.remove(robot, first.paths[robot]);
     GapQuery query;
     query.start = instance.start(robot);
-    query.distances = &instance.distances(robot);
+    const HeldDistances held = instance.distances(robot);
+    query.distances = &*held;
     query.placed = &placed;
     const Path soonest = gaps.search(query, Deadline()).path;
     Plan changed = first;

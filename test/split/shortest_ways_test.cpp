@@ -55,30 +55,32 @@ TEST(ShortestWays, GoOnFromWhereverARobotIs) {
   const auto grid = test::gridFromAscii({".....", ".....", "....."});
   const Instance instance = Instance::fromVertices(grid, {0}, {14});
   const Path way = drawShortestWay(instance, 0, 7);
-  ShortestWays ways(instance, {way});
+  const HeldDistances distances = instance.distances(0);
+  ShortestWays ways(instance.graph(), {way});
   RandomEngine engine(3);
-  EXPECT_EQ(ways.after(0, 0, 2, engine), way[2]);
-  EXPECT_EQ(ways.after(0, way[2], 3, engine), way[5]) << "the same way, further on";
+  EXPECT_EQ(ways.after(0, *distances, 0, 2, engine), way[2]);
+  EXPECT_EQ(ways.after(0, *distances, way[2], 3, engine), way[5]) << "the same way, further on";
   // From cells beside the way, too.
   for (Vertex v = 0; v < grid->size(); ++v) {
-    const std::uint32_t left = instance.distances(0)(v);
+    const std::uint32_t left = distances(v);
     for (std::uint32_t steps = 0; steps <= left; ++steps) {
-      EXPECT_EQ(instance.distances(0)(ways.after(0, v, steps, engine)), left - steps);
+      EXPECT_EQ(distances(ways.after(0, *distances, v, steps, engine)), left - steps);
     }
-    EXPECT_EQ(ways.after(0, v, 0, engine), v);
+    EXPECT_EQ(ways.after(0, *distances, v, 0, engine), v);
   }
 }
 
 TEST(ShortestWays, LeadElsewhereOnceForgotten) {
   const Instance instance = test::generatedInstance(32, 0, 1);
   const std::uint32_t half = instance.shortestLength(0) / 2;
-  ShortestWays ways(instance, {drawShortestWay(instance, 0, 0)});
+  const HeldDistances distances = instance.distances(0);
+  ShortestWays ways(instance.graph(), {drawShortestWay(instance, 0, 0)});
   RandomEngine engine(0);
   std::set<Vertex> met;
   for (int i = 0; i < 20; ++i) {
-    EXPECT_EQ(ways.after(0, instance.start(0), half, engine),
-              ways.after(0, instance.start(0), half, engine));
-    met.insert(ways.after(0, instance.start(0), half, engine));
+    EXPECT_EQ(ways.after(0, *distances, instance.start(0), half, engine),
+              ways.after(0, *distances, instance.start(0), half, engine));
+    met.insert(ways.after(0, *distances, instance.start(0), half, engine));
     ways.forget();
   }
   EXPECT_GT(met.size(), 3U);

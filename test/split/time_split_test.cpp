@@ -217,7 +217,8 @@ TEST(TimeSplit, PiecesShareNoTableThatGrows) {
   std::set<const DistanceTable*> tables;
   for (const Piece& leaf : *tree) {
     EXPECT_EQ(leaf.instance->goal(0), 1U);
-    EXPECT_TRUE(tables.insert(&leaf.instance->distances(0)).second) << "read by two threads";
+    const HeldDistances distances = leaf.instance->distances(0);
+    EXPECT_TRUE(tables.insert(&*distances).second) << "read by two threads";
   }
   EXPECT_EQ(tables.size(), 3U);
 }

@@ -28,7 +28,8 @@ class HelpTest(CommandTest):
     def test_help_shows_every_option_of_plan_with_its_default(self):
         text = " ".join(self.expect(0, "plan", "--help").stdout.split())
         for option in ["--map FILE", "--scen FILE", "--agents N", "--solver-option NAME=VALUE",
-                       "--split-option NAME=VALUE", "--memory-limit MIB", "--output FILE",
+                       "--split-option NAME=VALUE", "--memory-limit MIB",
+                       "--table-memory MIB", "--output FILE",
                        "--progress", "--quiet"]:
             self.assertIn(option, text)
         for default in ["sum_of_costs (makespan)", "of ECBS (1.5)", "included (60)",
@@ -86,6 +87,7 @@ class BadUsageTest(CommandTest):
                 "--suboptimality": ["0.9", "-1", "nan", "inf", "1.5x", "w"],
                 "--time-limit": ["-1", "nan", "inf", "1s", "1e999"],
                 "--memory-limit": ["0", "-5", "1.5"],
+                "--table-memory": ["0", "-5", "1.5"],
                 "--threads": ["0", "-1", "two", "1025"],
                 "--seed": ["-1", "0x10", "18446744073709551616"],
                 "--refine": ["-1", "x"]}.items():

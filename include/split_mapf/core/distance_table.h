@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -27,6 +29,9 @@ struct DistanceGuide {
   /// Distances on the same graph to whatever goal, which has a way from `from`; null: none are
   /// known. One of kAll that takes 16 bits; any other is left aside.
   std::shared_ptr<const DistanceTable> known;
+  /// Whether the table takes a search of all once it has seen a good part of the graph, so that it
+  /// never costs much more than one of kAll.
+  bool may_complete = false;
 };
 
 /// Exact shortest distances [steps] from every vertex to one goal, by breadth-first search.
@@ -62,6 +67,8 @@ class DistanceTable {
   const std::uint16_t* narrowEntries() const {
     return graph_ == nullptr && wide_.empty() ? narrow_.data() : nullptr;
   }
+  /// Memory that it takes now [bytes], nearly.
+  std::size_t bytes() const;
 
  private:
   static constexpr std::uint16_t kNarrowUnknown = 0xffffU;
@@ -86,6 +93,11 @@ class DistanceTable {
   /// Goes on with the search until it meets `v` or ends.
   std::uint32_t search(Vertex v) const;
   std::uint32_t searchGuided(Vertex v) const;
+  std::size_t bytesOfGuide() const;
+  /// Whether so much is known that a search of all is the cheaper way to the rest.
+  bool isWorthCompleting() const;
+  /// @throws std::bad_alloc; the table is then as it was.
+  void complete() const;
   /// Puts the neighbours of a vertex where they belong; returns whether `v` is now known.
   bool expandGuided(Vertex from, Vertex v) const;
   bool isKnown(Vertex v) const {
@@ -102,13 +114,48 @@ class DistanceTable {
   mutable std::vector<std::uint32_t> wide_;
   mutable std::vector<Vertex> queue_;
   mutable std::size_t head_ = 0;
-  const Graph* graph_ = nullptr;  // null: everything was searched at once
-  std::unique_ptr<GuidedSearch> guided_;
+  mutable const Graph* graph_ = nullptr;  // null: everything was searched at once
+  mutable std::unique_ptr<GuidedSearch> guided_;
+};
+
+class DistanceTables;
+class TablePool;
+
+/// A table while somebody reads it. It stands until then, whatever becomes of the others. One of a
+/// pool belongs to the holder alone, which gives it back at its end. @pre the tables that it comes
+/// from outlive it.
+class HeldDistances {
+ public:
+  /// Of a table that stands as long as its tables.
+  explicit HeldDistances(const DistanceTable& kept) : table_(&kept) {}
+  HeldDistances(std::unique_ptr<const DistanceTable> own, const DistanceTables& from,
+                std::uint32_t number);
+  HeldDistances(HeldDistances&& other) noexcept;
+  HeldDistances& operator=(HeldDistances&& other) noexcept;
+  HeldDistances(const HeldDistances&) = delete;
+  HeldDistances& operator=(const HeldDistances&) = delete;
+  ~HeldDistances();
+
+  const DistanceTable& operator*() const& { return *table_; }
+  const DistanceTable& operator*() const&& = delete;  // it would be gone
+  const DistanceTable* operator->() const& { return table_; }
+  const DistanceTable* operator->() const&& = delete;
+  std::uint32_t operator()(Vertex v) const { return (*table_)(v); }
+
+ private:
+  void giveBack();
+
+  const DistanceTable* table_;
+  std::unique_ptr<const DistanceTable> own_;  // null: it stands elsewhere
+  const DistanceTables* from_ = nullptr;
+  std::uint32_t number_ = 0;
 };
 
 /// One distance table a goal, each computed when first asked for and kept from then on.
 /// Thread-safe: two threads asking for the same table compute it once; what they may do with it,
-/// DistanceExtent says.
+/// DistanceExtent says. Those of a pool are kept while there is room, and made again when they are
+/// asked for again: each is found on demand and belongs to one holder at a time, so two threads
+/// asking for the same table get two.
 class DistanceTables {
  public:
   /// Tables that stand already, by number; null: it does not. So stages never search for the same
@@ -127,13 +174,31 @@ class DistanceTables {
   DistanceTables(const Grid& grid, const std::vector<Vertex>& starts,
                  const std::vector<Vertex>& goals, std::shared_ptr<const DistanceTables> known,
                  const Standing& standing);
+  /// Tables of a pool, which others may share. @pre `grid` outlives this object.
+  DistanceTables(const Grid& grid, const std::vector<Vertex>& starts,
+                 const std::vector<Vertex>& goals, std::shared_ptr<TablePool> pool);
+  ~DistanceTables();
+  DistanceTables(const DistanceTables&) = delete;
+  DistanceTables& operator=(const DistanceTables&) = delete;
 
-  const DistanceTable& operator[](std::uint32_t i) const { return find(i, {}); }
+  HeldDistances operator[](std::uint32_t i) const { return hold(i, {}); }
   /// The same until the deadline: who comes later tries again. @throws Interrupted.
-  const DistanceTable& find(std::uint32_t i, const Deadline& deadline) const;
+  HeldDistances hold(std::uint32_t i, const Deadline& deadline) const;
+  /// The distance of a vertex that is known from now on. @pre always the same vertex for a table.
+  std::uint32_t lengthFrom(Vertex start, std::uint32_t i) const;
+  /// Frees a table of a pool that nobody is likely to read soon.
+  void giveUp(std::uint32_t i) const;
+  /// Null: they belong to no pool.
+  const std::shared_ptr<TablePool>& pool() const { return pool_; }
+  /// @pre they belong to no pool.
   std::shared_ptr<const DistanceTable> share(std::uint32_t i) const;
+  /// Bytes of all tables once everything is known.
+  std::size_t bytesOfAll() const;
+  bool areAll() const { return extent_ == DistanceExtent::kAll; }
 
  private:
+  friend class HeldDistances;
+  const DistanceTable& find(std::uint32_t i, const Deadline& deadline) const;
   struct Slot {
     std::once_flag once;
     std::shared_ptr<const DistanceTable> table;
@@ -146,7 +211,10 @@ class DistanceTables {
   DistanceExtent extent_;
   std::vector<Vertex> starts_;  // empty: without guides
   std::shared_ptr<const DistanceTables> known_;
-  mutable std::vector<Slot> slots_;
+  mutable std::vector<Slot> slots_;  // of tables that are kept
+  std::shared_ptr<TablePool> pool_;
+  std::uint64_t number_in_pool_ = 0;
+  mutable std::vector<std::atomic<std::uint32_t>> lengths_;  // of a pool: see lengthFrom()
 };
 
 }  // namespace split_mapf

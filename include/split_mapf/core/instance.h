@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -39,6 +40,17 @@ class Instance {
   static Instance stretchOf(const Instance& whole, const std::vector<Vertex>& starts,
                             const std::vector<Vertex>& goals);
 
+  /// The same, with distance tables that take about `bytes` at most: those that were read longest
+  /// ago are given up and made again when they are needed. Where few bytes are needed for all, or
+  /// where the distances are found on demand, it is this instance. Tables that are being read, a
+  /// few a thread (in solvers that look at all robots at once one a robot), count only when they
+  /// are not read any more.
+  Instance boundedTo(std::size_t bytes) const;
+  /// A part of a bounded instance: other starts, goals or robots, or a part of the grid. Its tables
+  /// share the room. @pre whole.isBounded().
+  static Instance partOf(const Instance& whole, Problem problem);
+  bool isBounded() const { return tables_->pool() != nullptr; }
+
   const Problem& problem() const { return problem_; }
   const Grid& grid() const { return *problem_.grid; }
   const std::shared_ptr<const Grid>& sharedGrid() const { return problem_.grid; }
@@ -49,18 +61,26 @@ class Instance {
   const std::vector<Vertex>& starts() const { return problem_.starts; }
   const std::vector<Vertex>& goals() const { return problem_.goals; }
 
-  /// Distances to the robot's goal; computed on first use, then shared by all copies.
-  const DistanceTable& distances(std::uint32_t robot) const { return (*tables_)[robot]; }
+  /// Distances to the robot's goal; computed on first use, then shared by all copies. Of a bounded
+  /// instance they belong to the holder. @pre the instance, or a copy, outlives what it returns.
+  HeldDistances distances(std::uint32_t robot) const { return (*tables_)[robot]; }
   /// The same, computed until the deadline at most. @throws Interrupted.
-  const DistanceTable& distances(std::uint32_t robot, const Deadline& deadline) const {
-    return tables_->find(robot, deadline);
+  HeldDistances distances(std::uint32_t robot, const Deadline& deadline) const {
+    return tables_->hold(robot, deadline);
   }
-  /// The robot's table as a shareable handle.
+  /// Frees the robot's table, if the instance is bounded: nobody is likely to need it soon.
+  void giveUpDistances(std::uint32_t robot) const { tables_->giveUp(robot); }
+  /// The robot's table as a handle. @pre the instance is not bounded.
   std::shared_ptr<const DistanceTable> shareDistances(std::uint32_t robot) const {
     return tables_->share(robot);
   }
-  /// The robot's shortest path length alone [steps]; DistanceTable::kUnreachable if cut off.
-  std::uint32_t shortestLength(std::uint32_t robot) const { return distances(robot)(start(robot)); }
+  /// Whether threads may share it.
+  bool hasShareableDistances(std::uint32_t robot) const;
+  /// The robot's shortest path length alone [steps]; DistanceTable::kUnreachable if cut off. Kept,
+  /// whatever becomes of its table.
+  std::uint32_t shortestLength(std::uint32_t robot) const {
+    return tables_->lengthFrom(start(robot), robot);
+  }
 
  private:
   Instance(Problem problem, std::shared_ptr<const DistanceTables> tables);

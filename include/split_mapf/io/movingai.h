@@ -52,7 +52,7 @@ void writeMovingAiMap(const std::string& path, const Grid& grid);
 /// Writes a `.scen` whose rows name `map_name`. The length column holds the 4-connected shortest
 /// length [steps], -1 where there is no way; the bucket is a quarter of it.
 /// @throws InputError when a cell is blocked or outside, when the two lists differ in length, or
-/// when the file cannot be written. Cost: one breadth-first search a robot.
+/// when the file cannot be written. Cost: a search between start and goal a robot.
 void writeMovingAiScenario(const std::string& path, const std::string& map_name, const Grid& grid,
                            const Scenario& scenario);
 

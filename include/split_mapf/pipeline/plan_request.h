@@ -29,6 +29,9 @@ struct PlanRequest {
   /// Whether robots take, of their paths that arrive when they do, those with the fewest turns.
   bool straighten = false;
   std::uint64_t seed = 0;
+  /// Bytes that distance tables may take while nobody reads them; 0: a quarter of the machine's
+  /// memory. The plan does not depend on it.
+  std::uint64_t table_bytes = 0;
   std::uint32_t threads = 0;  ///< 0: as many as the executor has
 };
 

@@ -11,6 +11,7 @@
 namespace split_mapf {
 namespace {
 
+constexpr std::uint64_t kMebibyte = 1ULL << 20U;
 constexpr std::int64_t kMaxUint32 = std::numeric_limits<std::int32_t>::max();
 
 // [s] Years; what lies beyond is a mistake of units.
@@ -96,6 +97,9 @@ void readPlanRequest(ParameterReader& reader, PlanRequest& plan) {
   plan.seed = static_cast<std::uint64_t>(
       reader.readInteger("seed", static_cast<std::int64_t>(plan.seed), {0, kMaxUint32}));
   plan.threads = static_cast<std::uint32_t>(reader.readInteger("threads", plan.threads, {0, 1024}));
+  const auto mebibytes = static_cast<std::int64_t>(plan.table_bytes / kMebibyte);
+  plan.table_bytes = kMebibyte * static_cast<std::uint64_t>(reader.readInteger(
+                                     "table_memory", mebibytes, {0, kMaxUint32}));
 }
 
 void readGoalOptions(ParameterReader& reader, GoalOptions& options) {

@@ -58,7 +58,8 @@ Bottlenecks BottleneckFinder::find(std::uint32_t robot, std::uint32_t length,
 
 bool BottleneckFinder::spread(std::uint32_t robot, std::uint32_t length,
                               const RobotConstraints& constraints) {
-  const DistanceTable& distances = instance_.distances(robot);
+  const HeldDistances held = instance_.distances(robot);
+  const DistanceTable& distances = *held;
   const Vertex goal = distances.goal();
   if (distances(instance_.start(robot)) > length) return false;
   states_.assign(1, instance_.start(robot));

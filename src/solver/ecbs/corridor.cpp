@@ -91,7 +91,7 @@ std::optional<CorridorReasoning::Passage> CorridorReasoning::passageOf(const Pat
 
 std::uint32_t CorridorReasoning::earliestAt(Vertex to, Vertex closed, const Traveller& traveller,
                                             std::uint32_t latest) {
-  const DistanceTable& distances = instance_.distances(traveller.robot);
+  const HeldDistances distances = instance_.distances(traveller.robot);
   const std::uint32_t there = distances(to);
   const auto later = [](const Open& a, const Open& b) {
     return a.estimate != b.estimate ? a.estimate > b.estimate : a.time < b.time;

@@ -27,7 +27,6 @@ SearchQuery LowLevel::shortest(std::uint32_t robot) const {
   SearchQuery query;
   query.robot = robot;
   query.start = instance_.start(robot);
-  query.distances = &instance_.distances(robot);
   query.others = &table_;
   query.reserved = reserved_;
   query.mode = OthersAre::kIgnored;
@@ -62,7 +61,9 @@ std::uint64_t LowLevel::left() const {
   return settings_.expansion_limit - std::min(settings_.expansion_limit, expansions_);
 }
 
-Path LowLevel::run(const SearchQuery& query) {
+Path LowLevel::run(SearchQuery query) {
+  const HeldDistances distances = instance_.distances(query.robot);
+  query.distances = &*distances;
   SearchAnswer answer = search_.search(query, deadline_);
   count(answer.expansions);
   interrupted_ = interrupted_ || answer.interrupted || exhausted_;

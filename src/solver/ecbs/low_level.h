@@ -25,8 +25,9 @@ class LowLevel {
   /// For the shortest path, the others being ignored.
   SearchQuery shortest(std::uint32_t robot) const;
 
-  /// Empty when there is no path or the run is to stop.
-  Path run(const SearchQuery& query);
+  /// Empty when there is no path or the run is to stop. The distances are the robot's, whatever the
+  /// query says.
+  Path run(SearchQuery query);
   /// Whether the run has to end: by its deadline or its limit of expansions.
   bool stopped();
   /// Adds work done elsewhere to the expansions of this run.

@@ -18,7 +18,8 @@ Path PlanImprover::earliestPath(std::uint32_t robot, std::uint32_t latest_arriva
                                 const Deadline& deadline) {
   GapQuery query;
   query.start = instance_.start(robot);
-  query.distances = &instance_.distances(robot);
+  const HeldDistances distances = instance_.distances(robot);
+  query.distances = &*distances;
   query.placed = &table_;
   query.latest_arrival = latest_arrival;
   return search_.search(query, deadline).path;

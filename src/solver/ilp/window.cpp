@@ -8,7 +8,7 @@ Window::Window(const Instance& instance, std::uint32_t robot, std::uint32_t late
                std::uint32_t slots)
     : latest_arrival_(latest_arrival), slots_(slots) {
   const Graph& graph = instance.graph();
-  const DistanceTable& to_goal = instance.distances(robot);
+  const HeldDistances to_goal = instance.distances(robot);
   std::unordered_map<Vertex, std::uint32_t> place;
   const auto meet = [&](Vertex v, std::uint32_t steps) {
     const std::uint32_t rest = to_goal(v);

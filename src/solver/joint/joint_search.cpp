@@ -54,7 +54,7 @@ JointSearch::JointSearch(const Instance& instance, JointTask task, const JointSe
       row_(robots() + (timed_ ? 1 : 0)),
       next_(row_) {
   for (const std::uint32_t robot : task_.robots) {
-    distances_.push_back(&instance.distances(robot));
+    distances_.push_back(instance.distances(robot));
     goals_.push_back(instance.goal(robot));
   }
 }

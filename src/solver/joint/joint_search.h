@@ -124,7 +124,7 @@ class JointSearch {
   bool timed_ = false;         // whether the step is part of the state
   std::uint64_t limit_ = 0;    // of costs: they must be less
   std::uint32_t floor_ = 0;
-  std::vector<const DistanceTable*> distances_;  // by place in the task, as are all of these
+  std::vector<HeldDistances> distances_;  // by place in the task, as are all of these
   std::vector<Vertex> goals_;
   std::vector<std::uint32_t> free_from_;  // step from which no firm robot is at the goal
   Explored explored_;

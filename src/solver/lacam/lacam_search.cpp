@@ -17,7 +17,6 @@ LacamSearch::LacamSearch(const Instance& instance, const LacamSettings& settings
     : instance_(instance),
       settings_(settings),
       deadline_(deadline),
-      distances_(instance),
       engine_(settings.seed),
       explored_(instance.robots(), instance.graph().size()),
       orders_(instance.robots(), instance.robots()),
@@ -26,7 +25,9 @@ LacamSearch::LacamSearch(const Instance& instance, const LacamSettings& settings
 
 LacamSearch::Outcome LacamSearch::run() {
   if (settings_.guidance > 0) makeGuidance();
-  pibt_ = std::make_unique<Pibt>(instance_, distances_, guidance_.get(), settings_.swap,
+  // Not before: the guidance holds the robots' tables one by one.
+  distances_ = std::make_unique<RobotDistances>(instance_);
+  pibt_ = std::make_unique<Pibt>(instance_, *distances_, guidance_.get(), settings_.swap,
                                  settings_.seed);
   addStart();
   while (goal_node_ == kNone) {

@@ -65,7 +65,7 @@ class LacamSearch {
   const Instance& instance_;
   const LacamSettings& settings_;
   const Deadline& deadline_;
-  RobotDistances distances_;
+  std::unique_ptr<RobotDistances> distances_;
   std::unique_ptr<Guidance> guidance_;
   std::uint64_t guidance_expansions_ = 0;
   std::unique_ptr<Pibt> pibt_;

@@ -11,10 +11,11 @@ namespace split_mapf {
 /// tables take 16 bits. @pre the instance outlives this object; see DistanceTable for threads.
 class RobotDistances {
  public:
-  explicit RobotDistances(const Instance& instance) : tables_(instance.robots()) {
+  explicit RobotDistances(const Instance& instance) {
+    tables_.reserve(instance.robots());
     narrow_.reserve(instance.robots());
     for (std::uint32_t i = 0; i < instance.robots(); ++i) {
-      tables_[i] = &instance.distances(i);
+      tables_.push_back(instance.distances(i));
       narrow_.push_back(tables_[i]->narrowEntries());
     }
   }
@@ -25,7 +26,7 @@ class RobotDistances {
   }
 
  private:
-  std::vector<const DistanceTable*> tables_;
+  std::vector<HeldDistances> tables_;
   std::vector<const std::uint16_t*> narrow_;
 };
 

@@ -72,7 +72,8 @@ ScatterSearch::ScatterSearch(const Instance& instance, std::uint32_t margin)
       closed_(instance.graph().size(), 0) {}
 
 Path ScatterSearch::find(std::uint32_t robot) {
-  distances_ = &instance_.distances(robot);
+  const HeldDistances distances = instance_.distances(robot);
+  distances_ = &*distances;
   shortest_ = instance_.shortestLength(robot);
   ++search_number_;
   expansions_ = 0;

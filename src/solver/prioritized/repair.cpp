@@ -22,7 +22,8 @@ Path Repair::fewestCollisions(std::uint32_t robot, std::uint32_t horizon) {
   SearchQuery query;
   query.robot = robot;
   query.start = instance_.start(robot);
-  query.distances = &instance_.distances(robot);
+  const HeldDistances distances = instance_.distances(robot);
+  query.distances = &*distances;
   query.others = &table_;
   query.reserved = reserved_;
   query.mode = OthersAre::kCounted;
