@@ -5,6 +5,8 @@
 namespace split_mapf {
 
 Instance ownInstance(const Instance& instance) {
+  // Tables of a pool belong to one reader at a time, and the pool to whoever uses it last.
+  if (instance.isBounded()) return Instance::partOf(instance, instance.problem());
   DistanceTables::Standing standing(instance.robots());
   for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {
     std::shared_ptr<const DistanceTable> table = instance.shareDistances(robot);

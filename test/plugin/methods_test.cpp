@@ -74,6 +74,8 @@ TEST_F(PluginMethods, AreRegisteredBesideTheOthers) {
   PlanRequest split = bySolver("none");
   split.split = "misbehaving";
   ASSERT_TRUE(plan(split).plan);
+  split.table_bytes = 1;
+  ASSERT_TRUE(plan(split).plan) << "tables that are given up are no tables to share";
 }
 
 TEST_F(PluginMethods, AreNeverAskedUnnamed) {
