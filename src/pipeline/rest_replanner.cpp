@@ -1,6 +1,7 @@
 #include "split_mapf/pipeline/rest_replanner.h"
 
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -18,6 +19,7 @@ namespace {
 // Of the budget, for robots one at a time: the greatest gains come first.
 constexpr std::uint64_t kSinglyOneIn = 3;
 constexpr std::uint32_t kPasses = 8;
+constexpr double kStatesAPoll = 1024;
 
 /// One call of RestReplanner::replan().
 class RestRun {
@@ -42,11 +44,12 @@ class RestRun {
     Plan rest = planOf(order, earliestSteps(order, departures_));
     trimToArrival(rest);
     const Instance instance = instanceOf(rest);
+    if (breaksRings()) {
+      rest = breakRings(instance, std::move(rest), Departures(departures_), deadline_,
+                        &answer_.expansions);
+    }
     rest = improve(instance, std::move(rest), expansions, seed);
     rest = compactRest(rest, order.vertices());
-    if (breaksRings()) {
-      rest = breakRings(instance, std::move(rest), Departures(departures_), deadline_);
-    }
     requireValid(instance, rest);
     judge(concatenate(graph_, cut_, rest));
     return std::move(answer_);
@@ -106,25 +109,42 @@ class RestRun {
     ReplanEffort effort;
     effort.passes = kPasses;
     effort.departures = departures;
+    effort.avoids_rings = breaksRings();
     effort.go_on = [&](std::uint64_t more, std::uint64_t) {
       answer_.expansions += more;
       return answer_.expansions < expansions / kSinglyOneIn;
     };
     rest = replanSingly(instance, std::move(rest), effort, deadline_);
-    const std::uint64_t singly = answer_.expansions;
+    const std::uint64_t before = answer_.expansions;
     NeighbourhoodSearch search(instance, std::move(rest), kForever - 1, seed, departures);
-    const auto always = [](const std::vector<PathChange>&) { return true; };
+    const auto makes_no_ring = [&](const std::vector<PathChange>& changes) {
+      if (!breaksRings()) return true;
+      return std::none_of(changes.begin(), changes.end(), [&](const PathChange& change) {
+        return closesRing(search.table(), change.path);
+      });
+    };
     std::uint64_t left = sumOfCostsOf(search.plan());
     for (const std::uint32_t step : departures.soonestArrivals(instance)) left -= step;
     // What a try costs beside its states: robots are looked through for one that is late.
     const std::uint64_t look = 64 + instance.robots() / 8;
     std::uint64_t looks = 0;
+    const Deadline capped = withinBudget(expansions);
     while (left > 0 && answer_.expansions + looks < expansions && !deadline_.expired()) {
-      left -= static_cast<std::uint64_t>(search.tryOne(deadline_, always));
-      answer_.expansions = singly + search.expansions();
+      left -= static_cast<std::uint64_t>(search.tryOne(capped, makes_no_ring));
+      answer_.expansions = before + search.expansions();
       looks += look;
     }
     return search.plan();
+  }
+
+  /// Ends a try that has used up what is left, as one of many searches may take as much as all
+  /// others: searches look at the deadline once in kStatesAPoll states.
+  Deadline withinBudget(std::uint64_t expansions) const {
+    const std::uint64_t left = expansions - std::min(expansions, answer_.expansions);
+    WorkClock of_a_poll;
+    of_a_poll.tick();
+    const double polls = static_cast<double>(left) / kStatesAPoll;
+    return deadline_.countedBy(std::make_shared<WorkClock>()).within(polls * of_a_poll.nowSec());
   }
 
   void requireValid(const Instance& instance, const Plan& rest) const {

@@ -47,6 +47,8 @@ class NeighbourhoodSearch {
   void replace(std::uint32_t robot, Path path);
 
   const Plan& plan() const { return plan_; }
+  /// Of the plan; while a change is asked about, with that change.
+  const ReservationTable& table() const { return table_; }
   std::uint64_t expansions() const { return expansions_ + chain_.expansions(); }
 
  private:

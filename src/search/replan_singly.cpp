@@ -10,6 +10,7 @@
 #include "search/batch_size.h"
 #include "search/gap_search.h"
 #include "search/reservation_table.h"
+#include "search/ring_breaking.h"
 
 namespace split_mapf {
 namespace {
@@ -123,7 +124,12 @@ class BatchReplanning {
   bool take(std::uint32_t robot, Path path) {
     if (path.empty()) return true;
     const Path& own = plan_.paths[robot];
-    if (!tables_.front().exchange(robot, plan_.paths[robot], path)) return false;
+    ReservationTable& table = tables_.front();
+    if (!table.exchange(robot, plan_.paths[robot], path)) return false;
+    if (effort_.avoids_rings && closesRing(table, own)) {
+      table.exchange(robot, plan_.paths[robot], path);
+      return true;
+    }
     gained_ += path.size() - own.size();  // they have changed places
     changes_.push_back({robot, std::move(path)});
     return true;

@@ -1,16 +1,29 @@
 #include "search/ring_breaking.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "search/gap_search.h"
-#include "search/reservation_table.h"
+#include "search/stay.h"
 #include "split_mapf/core/precedence.h"
 
 namespace split_mapf {
 namespace {
 
 constexpr int kRounds = 5;
+// Steps before a ring from which a robot of it looks for another way: the way up to there is as
+// good as it was, and most of what a search from the start would look at lies there.
+constexpr std::uint32_t kReach = 16;
+
+/// Where the robot goes that leaves a vertex in step t; kNoVertex: none does.
+Vertex leadsTo(const ReservationTable& placed, Vertex v, std::uint32_t t) {
+  if (!placed.isTaken(v, t - 1)) return kNoVertex;
+  const std::vector<Stay>& stays = placed.at(v);
+  const auto stay = std::partition_point(stays.begin(), stays.end(),
+                                         [t](const Stay& before) { return before.end < t; });
+  return stay != stays.end() && stay->end == t ? stay->next : kNoVertex;
+}
 
 /// One call of breakRings().
 class RingBreaking {
@@ -24,9 +37,11 @@ class RingBreaking {
         table_(instance.graph().size(), plan_),
         search_(instance.graph()) {}
 
-  Plan run() {
+  std::uint64_t expansions() const { return expansions_; }
+
+  Plan run(Precedence order) {
     for (int round = 0; round < kRounds; ++round) {
-      const Precedence order(plan_, instance_.graph().size());
+      if (round > 0) order = Precedence(plan_, instance_.graph().size());
       bool broken = false;
       for (const Ring& ring : findRings(order)) {
         if (stillRotates(order, ring)) broken = breakOne(order, ring) || broken;
@@ -48,20 +63,26 @@ class RingBreaking {
     return true;
   }
 
+  /// Robots look for other ways first from shortly before the ring, then from their starts.
   bool breakOne(const Precedence& order, const Ring& ring) {
+    return breakFrom(order, ring, kReach) || breakFrom(order, ring, kForever);
+  }
+
+  bool breakFrom(const Precedence& order, const Ring& ring, std::uint32_t reach) {
     Path best;
     std::uint32_t robot = 0;
-    std::uint32_t least = 0;
+    // By how much more than before somebody may lose, and be the best one.
+    std::uint32_t slack = kForever - 1;
     for (const VisitId event : ring) {
-      Path path = pathWithout(order[event]);
-      if (path.empty()) continue;
+      if (!best.empty() && slack == 0) break;
       const std::uint32_t own = order[event].robot;
-      const auto loss = static_cast<std::uint32_t>(path.size() + instance_.robots()) -
-                        static_cast<std::uint32_t>(plan_.paths[own].size());
-      if (!best.empty() && loss >= least) continue;
+      const auto cost = static_cast<std::uint32_t>(plan_.paths[own].size() - 1);
+      const std::uint32_t latest = best.empty() ? kForever - 1 : cost + slack - 1;
+      Path path = pathWithout(order[event], reach, latest);
+      if (path.empty()) continue;
+      slack = std::max(static_cast<std::uint32_t>(path.size() - 1), cost) - cost;
       best = std::move(path);
       robot = own;
-      least = loss;
     }
     if (best.empty()) return false;
     table_.remove(robot, plan_.paths[robot]);
@@ -71,20 +92,21 @@ class RingBreaking {
   }
 
   /// The earliest path on which the robot does not come to the vertex at the ring's step.
-  Path pathWithout(const Visit& visit) {
+  Path pathWithout(const Visit& visit, std::uint32_t reach, std::uint32_t latest_arrival) {
     const Path& own = plan_.paths[visit.robot];
-    table_.remove(visit.robot, own);
+    const std::uint32_t kept =
+        std::max(departures_(visit.robot), keptUntil(own, visit.step - 1, reach));
+    table_.removeTail(visit.robot, own, kept);
     table_.toggleStep(visit.vertex, visit.step);
-    GapQuery query;
-    query.start = own.front();
     const HeldDistances distances = instance_.distances(visit.robot);
-    query.distances = &*distances;
-    query.placed = &table_;
-    query.departure = departures_(visit.robot);
+    const GapQuery query = queryFrom(own, kept, *distances, table_, latest_arrival);
     GapAnswer answer = search_.search(query, deadline_);
+    expansions_ += answer.expansions;
     table_.toggleStep(visit.vertex, visit.step);
-    table_.insert(visit.robot, own);
+    table_.insertTail(visit.robot, own, kept);
     Path& path = answer.path;
+    if (path.empty()) return {};
+    std::copy_n(own.begin(), kept, path.begin());
     while (path.size() > 1 && path[path.size() - 2] == path.back()) path.pop_back();
     return std::move(path);
   }
@@ -95,13 +117,30 @@ class RingBreaking {
   Plan plan_;
   ReservationTable table_;
   GapSearch search_;
+  std::uint64_t expansions_ = 0;
 };
 
 }  // namespace
 
 Plan breakRings(const Instance& instance, Plan plan, const Departures& departures,
-                const Deadline& deadline) {
-  return RingBreaking(instance, std::move(plan), departures, deadline).run();
+                const Deadline& deadline, std::uint64_t* expansions) {
+  Precedence order(plan, instance.graph().size());
+  if (findRings(order).empty()) return plan;
+  RingBreaking breaking(instance, std::move(plan), departures, deadline);
+  Plan broken = breaking.run(std::move(order));
+  if (expansions != nullptr) *expansions += breaking.expansions();
+  return broken;
+}
+
+bool closesRing(const ReservationTable& placed, const Path& path, std::uint32_t from) {
+  for (std::uint32_t t = from + 1; t < path.size(); ++t) {
+    if (path[t] == path[t - 1]) continue;
+    // No two come to one vertex: who follows the leaders comes back to this robot, or to an end.
+    Vertex ahead = leadsTo(placed, path[t], t);
+    while (ahead != kNoVertex && ahead != path[t]) ahead = leadsTo(placed, ahead, t);
+    if (ahead != kNoVertex) return true;
+  }
+  return false;
 }
 
 }  // namespace split_mapf

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "search/departures.h"
+#include "search/reservation_table.h"
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"
@@ -13,8 +14,15 @@ namespace split_mapf {
 /// one robot, the one that loses least, gets the earliest path among those of all others on which
 /// it does not close the ring. What such a path closes anew is broken in turn, a few times over.
 /// Some rings may stay, where nobody can go elsewhere; the plan stays valid, and keeps departures.
-/// Ours. Cost: a GapSearch a robot of a ring.
+/// Ours. Cost: O(visits), and for each robot of a ring a GapSearch from shortly before it; from the
+/// robot's start only where that finds nothing. @param expansions  grows by the states of these
+/// searches; null: nobody counts them.
 Plan breakRings(const Instance& instance, Plan plan, const Departures& departures,
-                const Deadline& deadline);
+                const Deadline& deadline, std::uint64_t* expansions = nullptr);
+
+/// Whether a robot whose path is in the table rotates with others at some step behind `from`: who
+/// improves a plan without rings asks it of each new path, and never makes one. Cost: O(steps), and
+/// O(log visits) for each robot that is followed.
+bool closesRing(const ReservationTable& placed, const Path& path, std::uint32_t from = 0);
 
 }  // namespace split_mapf
