@@ -1,0 +1,186 @@
+#!/usr/bin/env python3
+"""Measures the action ~execute with robots without hardware, on a ROS master of its own. Not part of the
+tests that run each time: it takes minutes, and its figures depend on the machine.
+
+Robots of a warehouse carry out a plan, then the same one backwards, and so on for some minutes. Some are
+late; the node improves nothing (policy graph), is killed in the middle of the last plan, and starts again.
+Every execution ends with all robots at their goals, the node's memory stays flat, and places are checked
+from a bag by a script that knows the bag alone.
+
+exit codes: 0 all is well, 1 something is not (see the last lines)
+"""
+
+import argparse
+import os
+import signal
+import statistics
+import sys
+import time
+
+# First: it chooses the master's port.
+from move_soak import OUTCOMES, Soak, cpu_and_memory
+import actionlib
+import rospy
+from nav_msgs.msg import OccupancyGrid
+
+from fleet_case import make_plan
+from ros_processes import Program, SentGoal, start_program, wait_until
+from split_mapf.msg import (ExecutePlanAction, ExecutePlanGoal, MultiRobotPlan, PlanOutcome, RobotPath,
+                            RobotState)
+
+LOOK_SEC = 10
+# Beyond what a process needs once it has done everything once.
+MOST_GROWTH_MIB = 20
+
+
+def backwards(plan):
+    """From the goals to the starts: as valid as the plan."""
+    last = max(len(path.cells) for path in plan.paths)
+    back = MultiRobotPlan(header=plan.header, grid=plan.grid, step_duration=plan.step_duration,
+                          makespan=plan.makespan, objective=plan.objective)
+    for path in plan.paths:
+        cells = list(path.cells) + [path.cells[-1]] * (last - len(path.cells))
+        cells.reverse()
+        while len(cells) > 1 and cells[-2] == cells[-1]:
+            cells.pop()
+        back.paths.append(RobotPath(robot_id=path.robot_id, cells=cells))
+    back.makespan = max(len(path.cells) - 1 for path in back.paths)
+    back.sum_of_costs = sum(len(path.cells) - 1 for path in back.paths)
+    return back
+
+
+class ExecuteSoak(Soak):
+    def publish_starts(self):
+        """Of a plan for all robots."""
+        width, height = self.options.size
+        self.grid, self.plan = make_plan(self.directory.name, self.options.robots, width, height,
+                                         self.options.step)
+        self.topics = [rospy.Publisher("map", OccupancyGrid, queue_size=1, latch=True),
+                       rospy.Publisher("plan", MultiRobotPlan, queue_size=1, latch=True)]
+        self.topics[0].publish(self.grid)
+        self.topics[1].publish(self.plan)
+
+    def start_fleet(self):
+        self.fleet = self.start(start_program(
+            "executor_node", "_execution_file:=" + os.path.join(self.directory.name, "kept.json"),
+            "_threads:=1", "_policy:=graph", "_release_ahead:=3", "_progress_timeout:=30",
+            "_robot_radius:=%g" % self.options.radius))
+        if not self.fleet.wait_for_output("ready:"):
+            raise RuntimeError(self.fleet.output())
+
+    def send(self, plan):
+        client = actionlib.ActionClient("fleet/execute", ExecutePlanAction)
+        client.wait_for_server(rospy.Duration(60))
+        return SentGoal(client, ExecutePlanGoal(plan=plan))
+
+    def run(self):
+        self.start_fleet()
+        self.start_robots("_delay_probability:=0.0005", "_min_delay:=10", "_max_delay:=30",
+                          "_delay_step:=%g" % self.options.step)
+        bag = os.path.join(self.directory.name, "run.bag")
+        recorder = self.start(Program("rosbag", "record", "-q", "-O", bag, "-b", "1024",
+                                      "--tcpnodelay", "/progress"))
+        time.sleep(2)
+        self.conduct()
+        recorder.signal(signal.SIGINT)
+        recorder.wait()
+        self.check(bag)
+
+    def conduct(self):
+        self.begun = time.monotonic()
+        self.shares, self.memory, self.executions = [], [], 0
+        plan, is_killed = self.plan, False
+        while not is_killed:
+            is_killed = time.monotonic() - self.begun > 24 * self.options.minutes
+            self.execute(plan, is_killed)
+            plan = backwards(plan)
+            if self.wrong:
+                break
+        self.report()
+
+    def execute(self, plan, is_killed):
+        self.state = None
+        goal = self.send(plan)
+        if is_killed:
+            goal = self.kill_and_start_again(plan)
+        wait_until(lambda: self.look() and goal.wait_for_end(0.05), 3600)
+        result = goal.result()
+        name = OUTCOMES.get(result.outcome, "?") if result else "no end"
+        self.require(name == "SUCCEEDED", "%s: %s" % (name, result.message if result else ""))
+        self.executions += 1
+
+    def kill_and_start_again(self, plan):
+        some = len(plan.paths) // 4
+        # What was told of the execution before is no news.
+        wait_until(lambda: self.state and self.state.plan_id and self.arrived() < some)
+        reached = wait_until(lambda: self.look() and self.arrived() >= some, 3600)
+        self.require(reached, "the execution in which the node is killed did not get on")
+        print("killed when %d of %d robots had arrived" % (self.arrived(), len(plan.paths)))
+        self.fleet.signal(signal.SIGKILL)
+        self.fleet.wait()
+        self.sample = None
+        killed = time.monotonic()
+        self.start_fleet()
+        self.require(self.fleet.wait_for_output("taking up again"), self.fleet.output())
+        print("taken up again after %.1f s" % (time.monotonic() - killed))
+        return self.send(plan)
+
+    def arrived(self):
+        robots = self.state.robots if self.state else []
+        return sum(robot.state == RobotState.ARRIVED for robot in robots)
+
+    sample = None
+    looked = 0
+
+    def look(self):
+        """Every ten seconds: how much CPU and memory the node takes. @return true."""
+        now = time.monotonic()
+        if now - self.looked < LOOK_SEC:
+            return True
+        cpu, memory = cpu_and_memory(self.fleet.process.pid)
+        if self.sample:
+            self.shares.append(100 * (cpu - self.sample[1]) / (now - self.sample[0]))
+            self.memory.append(memory)
+        self.sample = (now, cpu)
+        self.looked = now
+        return True
+
+    def report(self):
+        print("%.0f s, %d robots at 10 Hz, %d executions, the last one with a kill and a restart" %
+              (time.monotonic() - self.begun, self.options.robots, self.executions))
+        if not self.shares:
+            self.require(False, "too short to measure anything")
+            return
+        print("CPU of the node, shares of a core in %d windows of %d s: median %.1f %%, at most %.1f %%"
+              % (len(self.shares), LOOK_SEC, statistics.median(self.shares), max(self.shares)))
+        print("memory [MiB]: %s" % " ".join("%.0f" % value for value in self.memory[
+            ::max(1, len(self.memory) // 20)]))
+        # The first third brings what is made once.
+        grown = max(self.memory) - max(self.memory[:len(self.memory) // 3 + 1])
+        self.require(grown <= MOST_GROWTH_MIB, "memory has grown by %.0f MiB" % grown)
+        self.require(statistics.median(self.shares) < 20, "the node takes 20 % of a core")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--robots", type=int, default=1000)
+    parser.add_argument("--minutes", type=float, default=10,
+                        help="after two fifths of them the next execution is the last one (10)")
+    parser.add_argument("--size", type=int, nargs=2, default=(161, 63), metavar=("W", "H"),
+                        help="of the warehouse [cells] (161 63)")
+    parser.add_argument("--step", type=float, default=1.0, help="[s] (1)")
+    parser.add_argument("--radius", type=float, default=0.35, help="[m] of robots (0.35)")
+    parser.add_argument("--seed", type=int, default=1)
+    soak = ExecuteSoak(parser.parse_args())
+    try:
+        soak.run()
+    finally:
+        soak.end()
+    for what in soak.wrong[:10]:
+        print("wrong: " + what)
+    return 1 if soak.wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
