@@ -29,6 +29,7 @@ foreach(room server replay fleet scene)
   target_link_libraries(split_mapf_ros_${room} PUBLIC split_mapf_ros)
 endforeach()
 
+target_compile_definitions(split_mapf_ros_server PRIVATE SPLIT_MAPF_VERSION="${PROJECT_VERSION}")
 # Solvers of other packages, where pluginlib is; without it ~solver_plugins is refused.
 find_package(pluginlib QUIET)
 if(pluginlib_FOUND)

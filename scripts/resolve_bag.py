@@ -2,19 +2,20 @@
 """Plans every goal of a bag (roslaunch split_mapf record.launch) again, and compares outcome, costs
 and plan with what was recorded.
 
-The goals go to a planner node that runs; what they leave open is taken from its parameters, so start
-it with those of the recording. A goal without a map gets the one that the topic had. The same goal
-has the same plan at any number of threads, unless the clock cut the search (a time limit, refine_time)
-or the planner is another version.
+The goals go to a planner node that runs, with the options that their results say were used, so that
+its own parameters have no say (but for a seed of 0, empty lists of options, and poses). A result of an
+older version has none: start the node with the parameters of the recording then. A goal without a map
+gets the one that the topic had. The same goal has the same plan at any number of threads, unless the
+clock cut the search (a time limit, refine_time) or the planner is another version; a bag with another
+map than the result was planned on is told apart, and so is another version.
 
 exit codes: 0 all are the same, 1 bad usage or no such bag, 2 some differ, 4 Ctrl-C, 5 no answer from
 the node
 """
 
 import argparse
-import array
 import collections
-import hashlib
+import copy
 import sys
 
 import rosbag
@@ -45,20 +46,22 @@ def read_goals(path, action, map_topic):
     return [Recorded(key, goal, results.get(key)) for key, goal in goals.items()]
 
 
-def fingerprint(grid):
-    """Two maps with the same one are the same, wherever they were recorded."""
-    info = grid.info
-    place = (info.width, info.height, info.resolution, info.origin.position.x,
-             info.origin.position.y, info.origin.orientation.z, info.origin.orientation.w)
-    digest = hashlib.sha256(repr(place).encode("ascii"))
-    digest.update(array.array("b", grid.data).tobytes())
-    return digest.hexdigest()[:12]
+def used(statistics):
+    """Version, map and seed that a result tells; empty where it is of a version that told none."""
+    return {name: getattr(statistics, name) for name in ("version", "map_hash", "seed")
+            if getattr(statistics, "version", "")}
 
 
 def differences(recorded, answer):
-    """What is not as it was recorded, a sentence each."""
+    """What is not as it was recorded, a sentence each; what explains the others first."""
     found = []
     plan = answer.plan
+    was, now = used(recorded.statistics), used(answer.statistics)
+    for name, words in (("version", "planned by version %s, recorded by %s"),
+                        ("map_hash", "planned on map %s, recorded on %s"),
+                        ("seed", "planned with seed %s, recorded with %s: set the node's parameter")):
+        if was and now and was[name] != now[name]:
+            found.append(words % (now[name], was[name]))
     if recorded.outcome != answer.outcome:
         found.append("outcome %s, recorded %s: %s" % (
             answer.outcome_name, OUTCOME_NAMES.get(recorded.outcome, recorded.outcome),
@@ -105,12 +108,16 @@ def is_cut_by_the_clock(recorded):
 def resolve(fleet, recorded):
     """Plans a goal again and says how it compares. True where nothing differs."""
     goal = recorded.goal
-    print("goal %s: %d robots, %dx%d cells, map %s, seed %d" %
-          (recorded.id, len(goal.robots), goal.map.info.width, goal.map.info.height,
-           fingerprint(goal.map), goal.options.seed))
+    print("goal %s: %d robots, %dx%d cells" %
+          (recorded.id, len(goal.robots), goal.map.info.width, goal.map.info.height))
     if recorded.result is None:
         print("  the bag has no result of it: not compared")
         return True
+    told = used(recorded.result.statistics)
+    if told:
+        print("  recorded by version %(version)s, map %(map_hash)s, seed %(seed)d" % told)
+        goal = copy.copy(goal)
+        goal.options = recorded.result.statistics.options
     sent = fleet.send_goal(goal)
     try:
         answer = sent.wait()

@@ -309,6 +309,18 @@ TEST(MergeOptions, TakesANegativeNumberForZero) {
   EXPECT_EQ(options.plan.suboptimality, 0);
 }
 
+TEST(MergeOptions, ReadsWhatAResultTellsWhateverTheServersOptionsAre) {
+  GoalOptions unusual = readServerOptions(unusualParameters()).goal;
+  GoalOptions usual;
+  // What a message cannot say: 0 and empty lists are the server's, poses can only be asked for.
+  usual.plan.seed = unusual.plan.seed + 1;
+  usual.plan.threads = 1;
+  usual.plan.split_options = {"compaction=false"};
+  unusual.fill_poses = false;
+  expectEqual(mergeOptions(toMessage(usual), unusual), usual);
+  expectEqual(mergeOptions(toMessage(unusual), usual), unusual);
+}
+
 TEST(MergeOptions, ASpeedInTheGoalDerivesTheStep) {
   PlanOptions asked;
   asked.robot_speed = 0.5;

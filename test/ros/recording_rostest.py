@@ -169,8 +169,33 @@ class Recording(unittest.TestCase):
         code, output = self.resolve(self.write_changed(forget_a_robot))
         self.assertEqual(code, 2, output)
         self.assertIn("3 robots, recorded 4; of one only: robot_3", output)
+
+        def change_a_cell(topic, message):
+            if topic in ("/map", ACTION + "goal"):
+                grid = message if topic == "/map" else message.goal.map
+                grid.data = (100,) + tuple(grid.data[1:])
+        code, output = self.resolve(self.write_changed(change_a_cell))
+        self.assertEqual(code, 2, output)
+        self.assertRegex(output, "planned on map [0-9a-f]{16}, recorded on [0-9a-f]{16}")
+
+        def change_the_version(topic, message):
+            if topic == ACTION + "result":
+                message.result.statistics.version = "0.0.9"
+        code, output = self.resolve(self.write_changed(change_the_version))
+        self.assertEqual(code, 2, output)
+        self.assertRegex(output, r"planned by version [0-9.]+, recorded by 0\.0\.9")
         planner.end()
         self.assertEqual(self.resolve("nowhere.bag")[0], 1)
+
+    def test_a_goal_is_solved_again_by_a_node_with_other_parameters(self):
+        parameters = os.path.join(self.directory, "other.yaml")
+        with open(parameters, "w", encoding="ascii") as file:
+            file.write("{objective: sum_of_costs, solver: ecbs, split: 2t, suboptimality: 3.0, "
+                       "step_duration: 2.5}")
+        planner = Program(*self.planner_command, "params_file:=" + parameters)
+        self.addCleanup(planner.end)
+        code, output = self.resolve(self.bag)
+        self.assertEqual(code, 0, output + planner.output())
 
     def test_records_the_transforms_of_the_robots(self):
         record = Program("roslaunch", "split_mapf", "record.launch",

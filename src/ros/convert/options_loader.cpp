@@ -201,6 +201,36 @@ GoalOptions mergeOptions(const PlanOptions& asked, const GoalOptions& defaults) 
   return options;
 }
 
+PlanOptions toMessage(const GoalOptions& options) {
+  const auto spelled = [](auto value) { return value == 0 ? decltype(value){-1} : value; };
+  const PlanRequest& plan = options.plan;
+  PlanOptions message;
+  message.solver = plan.solver;
+  message.solver_options = plan.solver_options;
+  message.split = plan.split;
+  message.split_options = plan.split_options;
+  message.objective = toString(plan.objective);
+  message.suboptimality = plan.suboptimality;
+  message.time_limit = spelled(plan.time_limit_sec);
+  message.refine_time = spelled(plan.refine_sec);
+  message.seed = static_cast<std::uint32_t>(plan.seed);
+  message.threads = plan.threads;
+  message.robot_radius = spelled(options.roadmap.robot_radius_m);
+  message.cell_size = spelled(options.roadmap.cell_size_m);
+  message.clearance = spelled(options.roadmap.clearance_m);
+  message.snap_distance = spelled(options.snap_distance_m);
+  message.passages =
+      options.roadmap.passages ? PlanOptions::PASSAGES_ON : PlanOptions::PASSAGES_OFF;
+  message.ignore_specks = spelled(static_cast<std::int32_t>(options.ignore_specks));
+  message.unknown_space = options.occupancy.unknown_is_free ? PlanOptions::UNKNOWN_SPACE_FREE
+                                                            : PlanOptions::UNKNOWN_SPACE_BLOCKED;
+  message.occupied_threshold = static_cast<std::int8_t>(options.occupancy.occupied_threshold);
+  message.robot_speed = spelled(options.robot_speed_mps);
+  message.step_duration = spelled(options.step_duration_sec);
+  message.fill_poses = static_cast<std::uint8_t>(options.fill_poses);
+  return message;
+}
+
 double stepDurationOf(const GoalOptions& options, double longest_step_m) {
   const double speed = options.robot_speed_mps;
   const double needed = speed > 0 ? longest_step_m / speed : 1;

@@ -46,6 +46,11 @@ std::vector<std::string> findUnknownParameters(const XmlRpc::XmlRpcValue& parame
 /// @throws OptionError for a value out of range.
 GoalOptions mergeOptions(const PlanOptions& asked, const GoalOptions& defaults);
 
+/// The options as a message that leaves nothing open: zero is written as -1. Read again beside any
+/// defaults they are the same, but for what a message cannot say: a seed of 0, an empty list, and
+/// that there shall be no poses.
+PlanOptions toMessage(const GoalOptions& options);
+
 /// How long a step lasts in which a robot covers `longest_step_m` at most [s].
 /// @throws OptionError where both a speed and a duration are given that is too short for it.
 double stepDurationOf(const GoalOptions& options, double longest_step_m);

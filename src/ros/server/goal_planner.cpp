@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "ros/convert/map_hash.h"
 #include "ros/convert/result_limits.h"
 #include "ros/convert/unsolvable_text.h"
 #include "split_mapf/core/error.h"
@@ -71,6 +72,18 @@ std::vector<std::uint32_t> pointsOf(const PreparedGoal& goal, const Plan& plan) 
   return points;
 }
 
+/// Says what the same plan would need.
+void recordRun(const PreparedGoal& goal, PlanStatistics& statistics) {
+  statistics.version = SPLIT_MAPF_VERSION;
+  statistics.map_hash = goal.map_hash;
+  statistics.seed = static_cast<std::uint32_t>(goal.options.plan.seed);
+  statistics.options = toMessage(goal.options);
+  if (goal.grid.discs) return;
+  // Without a planning graph these are refused, see requireNoGraphOptions().
+  statistics.options.passages = PlanOptions::PASSAGES_DEFAULT;
+  statistics.options.snap_distance = 0;
+}
+
 std::string describeSuccess(const PlanReport& report) {
   char text[256];
   std::snprintf(text, sizeof text,
@@ -126,7 +139,7 @@ PreparedGoal GoalPlanner::prepareUntil(const boost::shared_ptr<const PlanPathsGo
   if (asksForRoadmap(options, goal->robots, map->info.resolution)) {
     PlacedDiscs discs =
         placeDiscs(goal->robots, *map, options, transformer_.forGoal(deadline), deadline, doing);
-    return prepareDiscs(options, std::move(discs));
+    return prepareDiscs(options, std::move(discs), hashOf(*map, deadline));
   }
   requireNoGraphOptions(goal->options);
   PlanningGrid grid = makePlanningGrid(*map, options.occupancy, options.ignore_specks, deadline);
@@ -136,16 +149,18 @@ PreparedGoal GoalPlanner::prepareUntil(const boost::shared_ptr<const PlanPathsGo
   Instance instance(grid.grid, robots.starts, robots.goals);
   doing = "while it was being checked whether goals can be reached";
   requireReachableGoals(instance, robots.ids, grid.geometry, deadline);
-  return PreparedGoal{withStepDuration(options, grid.geometry.info().resolution), std::move(grid),
-                      std::move(robots), std::move(instance)};
+  return PreparedGoal{withStepDuration(options, grid.geometry.info().resolution),
+                      hashOf(*map, deadline), std::move(grid), std::move(robots),
+                      std::move(instance)};
 }
 
-PreparedGoal GoalPlanner::prepareDiscs(const GoalOptions& options, PlacedDiscs discs) const {
+PreparedGoal GoalPlanner::prepareDiscs(const GoalOptions& options, PlacedDiscs discs,
+                                       const std::string& map_hash) const {
   if (options_.publish_paths) requireDistinctPaths(discs.ids);
   const DiscProblem& problem = discs.grid.discs->problem;
   const Instance instance = problem.instance();
-  return PreparedGoal{withStepDuration(options, problem.longestStep()), std::move(discs.grid),
-                      PlacedRobots{std::move(discs.ids), {}, {}}, instance};
+  return PreparedGoal{withStepDuration(options, problem.longestStep()), map_hash,
+                      std::move(discs.grid), PlacedRobots{std::move(discs.ids), {}, {}}, instance};
 }
 
 GoalAnswer GoalPlanner::plan(const PreparedGoal& goal, const Deadline& deadline,
@@ -158,6 +173,7 @@ GoalAnswer GoalPlanner::plan(const PreparedGoal& goal, const Deadline& deadline,
   answer.outcome = outcomeOf(report.termination);
   answer.result.message = sentenceOf(report);
   answer.result.statistics = statisticsOf(report);
+  recordRun(goal, answer.result.statistics);
   if (report.refusal) {
     UnsolvableAnswer proof =
         describeUnsolvable(refusalsOf(goal, *report.refusal, deadline), goal.robots.ids, goal.grid);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include <split_mapf/MultiRobotPlan.h>
@@ -26,7 +27,8 @@ namespace split_mapf {
 
 /// A goal that has been read and found right.
 struct PreparedGoal {
-  GoalOptions options;
+  GoalOptions options;   ///< the step's duration is known
+  std::string map_hash;  ///< see hashOf()
   PlanningGrid grid;
   PlacedRobots robots;
   Instance instance;
@@ -84,7 +86,8 @@ class GoalPlanner {
   PreparedGoal prepareUntil(const boost::shared_ptr<const PlanPathsGoal>& goal,
                             const GoalOptions& options, const Deadline& deadline,
                             const char*& doing) const;
-  PreparedGoal prepareDiscs(const GoalOptions& options, PlacedDiscs discs) const;
+  PreparedGoal prepareDiscs(const GoalOptions& options, PlacedDiscs discs,
+                            const std::string& map_hash) const;
   /// Nothing where the goal's limit of time, or a cancel, has not left enough for them.
   std::optional<PlanMessages> messagesInTime(const PreparedGoal& goal, const PlanReport& report,
                                              const Deadline& deadline) const;
