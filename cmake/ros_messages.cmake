@@ -25,6 +25,22 @@ add_service_files(FILES ${SPLIT_MAPF_SRV})
 add_action_files(FILES PlanPaths.action ExecutePlan.action MoveRobots.action)
 generate_messages(DEPENDENCIES actionlib_msgs geometry_msgs nav_msgs std_msgs)
 
+# The defaults of planner_node while it runs, where dynamic_reconfigure is and can generate their code.
+find_package(dynamic_reconfigure QUIET)
+if(dynamic_reconfigure_FOUND)
+  execute_process(COMMAND ${PYTHON_EXECUTABLE} -c "import dynamic_reconfigure.parameter_generator_catkin"
+    RESULT_VARIABLE status ERROR_QUIET)
+endif()
+if(dynamic_reconfigure_FOUND AND status EQUAL 0)
+  generate_dynamic_reconfigure_options(cfg/Planner.cfg)
+  set(SPLIT_MAPF_RECONFIGURE ON)
+else()
+  message(STATUS "dynamic_reconfigure is not here: planner_node is not reconfigured while it runs")
+  set(SPLIT_MAPF_RECONFIGURE OFF)
+endif()
+
+# Nobody else needs what planner_node alone includes.
+#catkin_lint: ignore missing_catkin_depend
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES split_mapf_core split_mapf_ros split_mapf_client

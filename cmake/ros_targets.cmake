@@ -30,6 +30,11 @@ foreach(room server replay fleet scene)
 endforeach()
 
 target_compile_definitions(split_mapf_ros_server PRIVATE SPLIT_MAPF_VERSION="${PROJECT_VERSION}")
+if(SPLIT_MAPF_RECONFIGURE)
+  target_compile_definitions(split_mapf_ros_server PRIVATE SPLIT_MAPF_HAS_RECONFIGURE)
+  target_include_directories(split_mapf_ros_server SYSTEM PRIVATE ${dynamic_reconfigure_INCLUDE_DIRS})
+  target_link_libraries(split_mapf_ros_server PUBLIC ${dynamic_reconfigure_LIBRARIES})
+endif()
 # Solvers of other packages, where pluginlib is; without it ~solver_plugins is refused.
 find_package(pluginlib QUIET)
 if(pluginlib_FOUND)

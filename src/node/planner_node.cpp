@@ -11,11 +11,13 @@
 #include "ros/convert/map_source.h"
 #include "ros/convert/options_loader.h"
 #include "ros/convert/pose_transformer.h"
+#include "ros/server/goal_defaults.h"
 #include "ros/server/goal_planner.h"
 #include "ros/server/plan_publisher.h"
 #include "ros/server/plan_server.h"
 #include "ros/server/plan_services.h"
 #include "ros/server/plugin_loader.h"
+#include "ros/server/reconfiguration.h"
 #include "ros/server/server_diagnostics.h"
 #include "solver/available/available_solvers.h"
 #include "split_mapf/core/error.h"
@@ -64,14 +66,18 @@ void run(split_mapf::NodeContext& context) {
 
   const split_mapf::MapSource maps(context.node, options.map_file);
   const split_mapf::PoseTransformer transformer;
-  const split_mapf::GoalPlanner goal_planner(planner, options, maps, transformer);
+  split_mapf::GoalDefaults defaults(options.goal);
+  const split_mapf::GoalPlanner goal_planner(planner, defaults, options.publish_paths, maps,
+                                             transformer);
   split_mapf::PlanPublisher publisher(context.node, context.private_node, options.publish_paths);
-  split_mapf::PlanServices services(context.private_node, methods.solvers, options, maps,
-                                    goal_planner, kServiceThreads);
+  split_mapf::PlanServices services(context.private_node, methods.solvers, maps, goal_planner,
+                                    kServiceThreads);
   const split_mapf::QueueLimits limits{options.max_queued_goals, workers};
   split_mapf::PlanServer server(context.private_node, goal_planner, publisher, limits);
   const split_mapf::ServerDiagnostics diagnostics(context.node, context.private_node, server,
                                                   limits, workers);
+
+  const split_mapf::Reconfiguration reconfiguration(context.private_node, planner, defaults);
 
   const split_mapf::MemoryReturn memory_return(context.node, server);
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """How the planner node starts and ends: parameters, signals, rosnode kill, diagnostics."""
 
+import importlib.util
 import os
 import signal
 import unittest
@@ -115,8 +116,49 @@ class Lifecycle(unittest.TestCase):
         self.assertEqual(values["goals allowed"], "3")
         self.assertEqual(values["goals running"], "0")
         self.assertEqual(values["last outcome"], "SUCCEEDED")
+        self.assertEqual(values["last outcomes"], "SUCCEEDED, UNKNOWN_SOLVER")
         self.assertEqual(values["plug-in searches that do not stop"], "0")
         self.assertGreater(float(values["memory [MiB]"]), 1)
+
+    def test_takes_new_defaults_for_the_next_goal(self):
+        if importlib.util.find_spec("split_mapf.cfg") is None:
+            self.skipTest("the node was built without dynamic_reconfigure")
+        from dynamic_reconfigure.client import Client  # pylint: disable=import-outside-toplevel
+        planner = self.start_ready("_threads:=1", "_robot_speed:=2.0", "_solver:=ecbs",
+                                   "_time_limit:=50")
+        defaults = Client("/split_mapf", timeout=60)
+        shown = defaults.get_configuration(timeout=60)
+        self.assertEqual((shown["solver"], shown["time_limit"], shown["step_duration"]),
+                         ("ecbs", 50, 0), "what the node was started with")
+        client = action_client()
+        hard = hard_goal()
+        hard.options.solver = ""
+        running = SentGoal(client, hard)
+        self.assertTrue(wait_until(running.is_active), planner.output())
+        shown = defaults.update_configuration({"solver": "lacam", "step_duration": 0.5})
+        self.assertEqual((shown["solver"], shown["step_duration"]), ("lacam", 0.5))
+        running.handle.cancel()
+        self.assertTrue(running.wait_for_end(), planner.output())
+        self.assertEqual(running.result().statistics.solver, "ecbs", "a running goal keeps its own")
+        after = SentGoal(client, warehouse_goal())
+        self.assertTrue(after.wait_for_end(), planner.output())
+        self.assertEqual(after.result().statistics.solver, "lacam")
+        self.assertEqual(after.result().plan.step_duration, 0.5)
+
+        # What the options refuse leaves all as it was.
+        shown = defaults.update_configuration({"solver": "oracle", "seed": 9})
+        self.assertEqual((shown["solver"], shown["seed"]), ("lacam", 0))
+        self.assertTrue(planner.wait_for_output("stay as they are: solver 'oracle' is unknown"))
+        shown = defaults.update_configuration({"time_limit": 1e12, "step_duration": 1e-9})
+        self.assertEqual((shown["time_limit"], shown["step_duration"]), (50, 0.5))
+
+    def test_a_speed_alone_derives_the_step_also_in_the_next_node(self):
+        self.start_ready().end()
+        planner = self.start_ready("_robot_speed:=0.5")
+        goal = SentGoal(action_client(), warehouse_goal())
+        self.assertTrue(goal.wait_for_end(), planner.output())
+        self.assertEqual(goal.result().outcome, PlanOutcome.SUCCEEDED, goal.result().message)
+        self.assertEqual(goal.result().plan.step_duration, 2)
 
     def start_with_plugins(self, *arguments):
         """With the packages of plug-ins, which stand in the test folder, where ROS looks for some."""

@@ -60,13 +60,13 @@ struct Server {
   explicit Server(QueueLimits limits)
       : planner(solvers, executor),
         maps(node, ""),
-        goals(planner, options, maps, transformer),
+        goals(planner, defaults, false, maps, transformer),
         publisher(node, private_node, false),
         server(private_node, goals, publisher, limits) {}
 
   ros::NodeHandle node;
   ros::NodeHandle private_node{"~"};
-  ServerOptions options;
+  GoalDefaults defaults{GoalOptions()};
   SolverRegistry solvers = fakeSolvers();
   Executor executor{1};
   Planner planner;

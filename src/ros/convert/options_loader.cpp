@@ -46,20 +46,6 @@ void checkThreshold(int threshold) {
   }
 }
 
-void checkNumbers(const GoalOptions& options) {
-  requireWithin(options.plan.time_limit_sec, "time_limit", 0, kMostSeconds);
-  requireWithin(options.plan.refine_sec, "refine_time", 0, kMostSeconds);
-  requireWithin(options.roadmap.robot_radius_m, "robot_radius", 0, kMostMetres);
-  requireWithin(options.roadmap.cell_size_m, "cell_size", 0, kMostMetres);
-  requireWithin(options.roadmap.clearance_m, "clearance", 0, kMostMetres);
-  requireWithin(options.snap_distance_m, "snap_distance", 0, kMostMetres);
-  requireWithin(options.robot_speed_mps, "robot_speed", 0, kMostSpeed);
-  if (options.step_duration_sec != 0) {
-    requireWithin(options.step_duration_sec, "step_duration", kLeastStep, kMostStep);
-  }
-  checkThreshold(options.occupancy.occupied_threshold);
-}
-
 bool isFreeWhenUnknown(std::uint8_t unknown_space, bool default_value) {
   switch (unknown_space) {
     case PlanOptions::UNKNOWN_SPACE_DEFAULT:
@@ -140,10 +126,24 @@ ServerOptions readAll(ParameterReader& reader) {
 
 }  // namespace
 
+void requireInRange(const GoalOptions& options) {
+  requireWithin(options.plan.time_limit_sec, "time_limit", 0, kMostSeconds);
+  requireWithin(options.plan.refine_sec, "refine_time", 0, kMostSeconds);
+  requireWithin(options.roadmap.robot_radius_m, "robot_radius", 0, kMostMetres);
+  requireWithin(options.roadmap.cell_size_m, "cell_size", 0, kMostMetres);
+  requireWithin(options.roadmap.clearance_m, "clearance", 0, kMostMetres);
+  requireWithin(options.snap_distance_m, "snap_distance", 0, kMostMetres);
+  requireWithin(options.robot_speed_mps, "robot_speed", 0, kMostSpeed);
+  if (options.step_duration_sec != 0) {
+    requireWithin(options.step_duration_sec, "step_duration", kLeastStep, kMostStep);
+  }
+  checkThreshold(options.occupancy.occupied_threshold);
+}
+
 ServerOptions readServerOptions(const XmlRpc::XmlRpcValue& parameters) {
   ParameterReader reader(parameters);
   ServerOptions options = readAll(reader);
-  checkNumbers(options.goal);
+  requireInRange(options.goal);
   return options;
 }
 
@@ -197,7 +197,7 @@ GoalOptions mergeOptions(const PlanOptions& asked, const GoalOptions& defaults) 
   // Who says a speed and no duration asks for the one that belongs to it.
   if (asked.robot_speed > 0 && asked.step_duration == 0) options.step_duration_sec = 0;
   options.fill_poses = options.fill_poses || asked.fill_poses;
-  checkNumbers(options);
+  requireInRange(options);
   return options;
 }
 

@@ -34,6 +34,10 @@ struct ServerOptions {
   std::vector<std::string> solver_plugins;  ///< classes of other packages, see PluginLoader
 };
 
+/// Whether every number has a meaning, whoever asks for it.
+/// @throws OptionError naming the option, the value and what is expected.
+void requireInRange(const GoalOptions& options);
+
 /// Reads the node's parameters, a struct of name and value; what is missing keeps its default.
 /// @throws OptionError naming the parameter, what it holds and what is expected.
 ServerOptions readServerOptions(const XmlRpc::XmlRpcValue& parameters);

@@ -105,14 +105,14 @@ std::string sentenceOf(const PlanReport& report) {
 void GoalPlanner::requireFits(const PreparedGoal& goal, const std::vector<std::uint32_t>& points,
                               bool least) const {
   requireSendable({goal.robots.ids, points, goal.grid.geometry.frame()}, goal.options.fill_poses,
-                  options_.publish_paths, least);
+                  publish_paths_, least);
   const std::uint32_t makespan = *std::max_element(points.begin(), points.end()) - 1;
   requireTimesFit(makespan, goal.options.step_duration_sec, ros::Time::now());
 }
 
 GoalOptions GoalPlanner::readOptions(const PlanOptions& asked) const {
   return withGoalErrors([&] {
-    GoalOptions options = mergeOptions(asked, options_.goal);
+    GoalOptions options = mergeOptions(asked, defaults_.get());
     planner_.requireValid(options.plan);
     return options;
   });
@@ -145,7 +145,7 @@ PreparedGoal GoalPlanner::prepareUntil(const boost::shared_ptr<const PlanPathsGo
   PlanningGrid grid = makePlanningGrid(*map, options.occupancy, options.ignore_specks, deadline);
   doing = "while the robots were being placed";
   PlacedRobots robots = placeRobots(goal->robots, grid, *map, transformer_.forGoal(deadline));
-  if (options_.publish_paths) requireDistinctPaths(robots.ids);
+  if (publish_paths_) requireDistinctPaths(robots.ids);
   Instance instance(grid.grid, robots.starts, robots.goals);
   doing = "while it was being checked whether goals can be reached";
   requireReachableGoals(instance, robots.ids, grid.geometry, deadline);
@@ -156,7 +156,7 @@ PreparedGoal GoalPlanner::prepareUntil(const boost::shared_ptr<const PlanPathsGo
 
 PreparedGoal GoalPlanner::prepareDiscs(const GoalOptions& options, PlacedDiscs discs,
                                        const std::string& map_hash) const {
-  if (options_.publish_paths) requireDistinctPaths(discs.ids);
+  if (publish_paths_) requireDistinctPaths(discs.ids);
   const DiscProblem& problem = discs.grid.discs->problem;
   const Instance instance = problem.instance();
   return PreparedGoal{withStepDuration(options, problem.longestStep()), map_hash,

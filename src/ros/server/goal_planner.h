@@ -16,6 +16,7 @@
 #include "ros/convert/options_loader.h"
 #include "ros/convert/pose_transformer.h"
 #include "ros/convert/robot_tasks.h"
+#include "ros/server/goal_defaults.h"
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/pipeline/planner.h"
@@ -57,11 +58,17 @@ class PreparationStopped : public std::runtime_error {
 /// From a goal message to a result message, without the action protocol. Thread-safe.
 class GoalPlanner {
  public:
-  /// @pre planner, maps and transformer outlive this object.
-  GoalPlanner(const Planner& planner, const ServerOptions& options, const MapSource& maps,
-              const PoseTransformer& transformer)
-      : planner_(planner), options_(options), maps_(maps), transformer_(transformer) {}
+  /// @pre all references outlive this object.
+  GoalPlanner(const Planner& planner, const GoalDefaults& defaults, bool publish_paths,
+              const MapSource& maps, const PoseTransformer& transformer)
+      : planner_(planner),
+        defaults_(defaults),
+        publish_paths_(publish_paths),
+        maps_(maps),
+        transformer_(transformer) {}
 
+  /// The server's options as they are now.
+  GoalOptions defaults() const { return defaults_.get(); }
   /// The goal's options with the server's where it leaves them open, checked.
   /// @throws GoalError: INVALID_OPTION, UNKNOWN_SOLVER, INVALID_SPLIT.
   GoalOptions readOptions(const PlanOptions& asked) const;
@@ -101,7 +108,8 @@ class GoalPlanner {
                    bool least) const;
 
   const Planner& planner_;
-  const ServerOptions& options_;
+  const GoalDefaults& defaults_;
+  const bool publish_paths_;
   const MapSource& maps_;
   const PoseTransformer& transformer_;
 };

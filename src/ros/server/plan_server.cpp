@@ -17,6 +17,7 @@ namespace {
 constexpr double kFeedbackPeriodSec = 0.2;
 // How soon a better plan is out where none went before it.
 constexpr double kLookForPlansSec = 0.05;
+constexpr std::size_t kOutcomesKept = 10;
 constexpr const char* kWhileOthersRead = "while other goals were being read first";
 constexpr const char* kWhileOthersPlan = "while other goals were planned for first";
 
@@ -257,6 +258,8 @@ void PlanServer::finish(ActiveGoal& goal, const GoalAnswer& answer) {
     last_.last_outcome = outcome;
     last_.last_message = answer.result.message;
     last_.last_runtime_sec = goal.elapsedSec();
+    last_.outcomes.push_front(outcome);
+    if (last_.outcomes.size() > kOutcomesKept) last_.outcomes.pop_back();
   }
   // Before the client hears of it, so that it can send the next goal at once.
   goal.left_queue = true;

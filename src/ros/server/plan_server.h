@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <deque>
 #include <list>
 #include <memory>
 #include <mutex>
@@ -32,6 +33,7 @@ struct PlanServerStatus {
   std::string last_outcome;  ///< name of the constant; empty before the first goal has ended
   std::string last_message;
   double last_runtime_sec = 0;
+  std::deque<std::string> outcomes;  ///< of the goals that ended last, the latest first
 };
 
 /// The action ~plan_paths: the protocol and nothing else.

@@ -24,13 +24,9 @@ Outcome outcomeOf(Solvability answer) {
 }  // namespace
 
 PlanServices::PlanServices(ros::NodeHandle private_node, const SolverRegistry& solvers,
-                           const ServerOptions& options, const MapSource& maps,
-                           const GoalPlanner& goal_planner, std::uint32_t threads)
-    : solvers_(solvers),
-      options_(options),
-      maps_(maps),
-      goal_planner_(goal_planner),
-      spinner_(threads, &queue_) {
+                           const MapSource& maps, const GoalPlanner& goal_planner,
+                           std::uint32_t threads)
+    : solvers_(solvers), maps_(maps), goal_planner_(goal_planner), spinner_(threads, &queue_) {
   const boost::function<bool(ValidatePlan::Request&, ValidatePlan::Response&)> validate =
       [this](ValidatePlan::Request& request, ValidatePlan::Response& response) {
         return validatePlan(request, response);
@@ -66,7 +62,7 @@ bool PlanServices::validatePlan(ValidatePlan::Request& request,
   try {
     // The request outlives this call, so nothing is to be deleted.
     const std::shared_ptr<const nav_msgs::OccupancyGrid> sent(&request.map, [](const void*) {});
-    const GoalOptions& asked = options_.goal;
+    const GoalOptions asked = goal_planner_.defaults();
     const Deadline deadline(asked.plan.time_limit_sec, stop_);
     const std::shared_ptr<const nav_msgs::OccupancyGrid> map = maps_.choose(sent);
     if (isOnRoadmap(request.plan)) {

@@ -26,9 +26,8 @@ namespace split_mapf {
 class PlanServices {
  public:
   /// @param threads  that serve the callers, at least 1. @pre all references outlive this object.
-  PlanServices(ros::NodeHandle private_node, const SolverRegistry& solvers,
-               const ServerOptions& options, const MapSource& maps, const GoalPlanner& goal_planner,
-               std::uint32_t threads);
+  PlanServices(ros::NodeHandle private_node, const SolverRegistry& solvers, const MapSource& maps,
+               const GoalPlanner& goal_planner, std::uint32_t threads);
   /// Calls shutdown().
   ~PlanServices();
   PlanServices(const PlanServices&) = delete;
@@ -43,7 +42,6 @@ class PlanServices {
   bool listSolvers(ListSolvers::Request& request, ListSolvers::Response& response) const;
 
   const SolverRegistry& solvers_;
-  const ServerOptions& options_;
   const MapSource& maps_;
   const GoalPlanner& goal_planner_;
   const std::shared_ptr<StopFlag> stop_ = std::make_shared<StopFlag>();
