@@ -1,10 +1,13 @@
-"""The scripts that measure the package: what they call worse."""
+"""The scripts that measure the package: what they count, and what they call worse."""
 
 import contextlib
 import importlib.machinery
 import importlib.util
 import io
 import os
+import subprocess
+import sys
+import tempfile
 import unittest
 
 SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts")
@@ -16,6 +19,35 @@ def load(name):
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
     loader.exec_module(module)
     return module
+
+
+class Coverage(unittest.TestCase):
+    SOURCE = "int twice(int x) {\n  if (x < 0) {\n    return 0;\n  }\n  return 2 * x;\n}\n"
+
+    def sum_up(self, root, *more):
+        return subprocess.run([sys.executable, os.path.join(SCRIPTS, "sum_coverage.py"), root, root,
+                               *more], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              universal_newlines=True, check=False)
+
+    def test_a_line_that_nobody_runs_is_named_and_a_high_demand_fails(self):
+        with tempfile.TemporaryDirectory() as root:
+            os.makedirs(os.path.join(root, "src", "core"))
+            with open(os.path.join(root, "src", "core", "twice.cpp"), "w", encoding="utf-8") as file:
+                file.write(self.SOURCE)
+            with open(os.path.join(root, "main.cpp"), "w", encoding="utf-8") as file:
+                file.write("int twice(int x);\nint main() { return twice(0); }\n")
+            subprocess.run(["g++", "--coverage", "src/core/twice.cpp", "main.cpp", "-o", "program"],
+                           cwd=root, check=True)
+            subprocess.run([os.path.join(root, "program")], cwd=root, check=True)
+            result = self.sum_up(root, "--least", "70")
+            self.assertEqual(result.returncode, 0, result.stdout)
+            self.assertIn("src/core/twice.cpp: 3\n", result.stdout)
+            self.assertNotIn("main.cpp", result.stdout)
+            self.assertEqual(self.sum_up(root, "--least", "90").returncode, 1)
+
+    def test_nothing_counted_is_no_full_coverage(self):
+        with tempfile.TemporaryDirectory() as root:
+            self.assertEqual(self.sum_up(root).returncode, 1)
 
 
 class Benchmark(unittest.TestCase):
