@@ -2,7 +2,8 @@
 """Checks in a bag that no two robots ever came too close: reads the poses in RobotProgress messages.
 
 Robots may report at moments of their own: between two of its poses each is taken to go straight,
-and after its last one to stand. Where a robot is that drives is not known while poses are missing.
+and after its last one to stand if it stood. Where a robot is that drives is not known while poses
+are missing, nor after its last one.
 Positions are compared at moments that are --period apart at least, and between these the least
 distance is that of continuous time, but for corners cut within a period.
 
@@ -31,6 +32,10 @@ class Track:
         self.xs.append(x)
         self.ys.append(y)
 
+    def drives_away(self):
+        """Whether it drove when its last pose was taken."""
+        return len(self.xs) > 1 and (self.xs[-1], self.ys[-1]) != (self.xs[-2], self.ys[-2])
+
     def at(self, moment, gap):
         """The place at a moment; none where that is not known. Moments come in order."""
         while self.next < len(self.stamps) and self.stamps[self.next] <= moment:
@@ -39,8 +44,10 @@ class Track:
             return None
         last = self.next - 1
         x, y = self.xs[last], self.ys[last]
-        if self.next == len(self.stamps) or self.stamps[last] == moment:
+        if self.stamps[last] == moment:
             return (x, y)
+        if self.next == len(self.stamps):
+            return None if self.drives_away() else (x, y)
         duration = self.stamps[self.next] - self.stamps[last]
         dx, dy = self.xs[self.next] - x, self.ys[self.next] - y
         if duration > gap and (dx or dy):

@@ -64,6 +64,14 @@ class CheckDistances(unittest.TestCase):
         poses += [(10, "b", 0, 0), (10.1, "b", 0, 0), (14, "b", 10, 0)]
         self.assertEqual(self.check(poses)[0], 0)
 
+    def test_does_not_put_a_robot_where_its_last_pose_was_that_drove_on(self):
+        # The bag ends with a pose of b; the last one of a, which drives ahead of it, is missing.
+        poses = [(10 + 0.1 * i, "a", i, 0) for i in range(10)]
+        poses += [(10 + 0.1 * i, "b", i - 1, 0) for i in range(12)]
+        code, said = self.check(poses)
+        self.assertEqual(code, 0, said)
+        self.assertIn("1.000 m", said)
+
     def test_is_content_with_robots_that_keep_apart(self):
         poses = [(10 + 0.1 * i, robot, i, y) for i in range(11) for robot, y in (("a", 0), ("b", 1))]
         code, said = self.check(poses)

@@ -223,13 +223,13 @@ class Soak:
         self.start_fleet()
         self.start_robots("_delay_probability:=0.0005", "_min_delay:=10", "_max_delay:=30",
                           "_delay_step:=%g" % self.options.step)
-        bag = os.path.join(self.directory.name, "run.bag")
-        recorder = self.start(Program("rosbag", "record", "-q", "-O", bag, "-b", "1024",
-                                      "--tcpnodelay", "/progress"))
+        bag = self.options.bag or os.path.join(self.directory.name, "run.bag")
+        record = os.path.join(os.path.dirname(os.path.abspath(__file__)), "record_progress.py")
+        recorder = self.start(Program(sys.executable, record, bag))
         clients = self.connect()
         self.conduct(clients)
         recorder.signal(signal.SIGINT)
-        recorder.wait()
+        self.require(recorder.wait(600) == 0, "the bag was not closed")
         wait_until(lambda: not any(client.open() for client in clients), 5)
         self.check(bag)
 
@@ -340,6 +340,7 @@ def main():
                         help="of the warehouse [cells] (161 63)")
     parser.add_argument("--step", type=float, default=1.0, help="[s] (1)")
     parser.add_argument("--radius", type=float, default=0.25, help="[m] of robots (0.25)")
+    parser.add_argument("--bag", help="hour: where to keep the bag (it is thrown away)")
     parser.add_argument("--seed", type=int, default=1)
     soak = Soak(parser.parse_args())
     try:
