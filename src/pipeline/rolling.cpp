@@ -1,6 +1,7 @@
 #include "split_mapf/pipeline/rolling.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
@@ -30,9 +31,12 @@ constexpr std::uint32_t kCrowdedPatience = 10;
 constexpr std::uint32_t kWeightEvery = 5;
 constexpr std::uint32_t kMostWeight = 50;
 
-// Windows of maps that are up to three tenths full, and from four tenths on.
-constexpr std::uint32_t kWideWindow = 20;
-constexpr std::uint32_t kCrowdedWindow = 13;
+// Windows by how full a map is [thousandths], measured; between these they fall evenly.
+struct WindowAt {
+  std::size_t fullness;
+  std::uint32_t steps;
+};
+constexpr std::array<WindowAt, 4> kWindows = {{{200, 26}, {240, 20}, {300, 20}, {400, 13}}};
 
 static_assert(RollingOptions::kMostWindow == kMostSteps);
 
@@ -101,7 +105,7 @@ class Rolling::Run {
       const Track& track = window_.tracks[robot];
       answer.paths.emplace_back(track.at.begin(), track.at.begin() + window_.steps + 1);
       std::uint32_t reached = 0;
-      answer.cost += window_.itineraries[robot].costOf(track, window_.steps, reached);
+      answer.cost += window_.itineraries[robot].lossOf(track, window_.steps, reached);
       answer.reached.push_back(reached);
     }
     answer.cost /= kStepCost;
@@ -247,11 +251,17 @@ class Rolling::Run {
 };
 
 std::uint32_t windowFor(std::size_t robots, std::size_t vertices) {
-  if (10 * robots <= 3 * vertices) return kWideWindow;
-  if (10 * robots >= 4 * vertices) return kCrowdedWindow;
-  const std::size_t beyond = 10 * robots - 3 * vertices;  // of `vertices`
-  return kWideWindow -
-         static_cast<std::uint32_t>(beyond * (kWideWindow - kCrowdedWindow) / vertices);
+  const std::size_t fullness = vertices == 0 ? 0 : 1000 * robots / vertices;
+  WindowAt below = kWindows.front();
+  for (const WindowAt& above : kWindows) {
+    if (fullness <= above.fullness) {
+      if (above.steps == below.steps) return above.steps;
+      const std::size_t part = (fullness - below.fullness) * (below.steps - above.steps);
+      return below.steps - static_cast<std::uint32_t>(part / (above.fullness - below.fullness));
+    }
+    below = above;
+  }
+  return below.steps;
 }
 
 Rolling::Rolling(std::shared_ptr<const Grid> grid, const RollingOptions& options)

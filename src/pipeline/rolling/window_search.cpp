@@ -98,11 +98,12 @@ void WindowSearch::expand(std::uint32_t index, const WindowTable& table,
     return;
   }
   const std::uint32_t bits = itinerary.slopes[reached][v];
+  const std::uint32_t step_cost = stepCostAt(states_[index].step);
   if (stage == 0) {
-    defer(index, kStepCost);
+    defer(index, step_cost);
     tryMoves(index, open & bits, table, itinerary);
   } else if (stage == 1) {
-    defer(index, kStepCost);
+    defer(index, step_cost);
     tryWait(index, table);
     tryMoves(index, open & bits >> kSlots, table, itinerary);
   } else {

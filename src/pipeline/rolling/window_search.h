@@ -44,7 +44,7 @@ class WindowSearch {
     std::uint32_t steps = 0;  // a bit each
   };
   static constexpr std::uint32_t kNone = 0xffffffffU;
-  static constexpr std::uint32_t kKeys = 2 * kStepCost * kMostSteps + 1;
+  static constexpr std::uint32_t kKeys = 2 * kMostStepCost * kMostSteps + 1;
 
   void begin(const Itinerary& itinerary, const Track& track);
   std::uint32_t pop();
