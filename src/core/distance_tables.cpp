@@ -1,3 +1,4 @@
+#include <exception>
 #include <new>
 #include <utility>
 
@@ -34,7 +35,8 @@ HeldDistances& HeldDistances::operator=(HeldDistances&& other) noexcept {
 HeldDistances::~HeldDistances() { giveBack(); }
 
 void HeldDistances::giveBack() {
-  if (!own_) return;
+  // What was read when memory ran out may have lost a part of its search.
+  if (!own_ || std::uncaught_exceptions() > 0) return own_.reset();
   try {
     from_->pool_->put(from_->number_in_pool_, number_, std::move(own_));
   } catch (const std::bad_alloc&) {

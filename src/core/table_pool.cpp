@@ -40,8 +40,10 @@ void TablePool::put(std::uint64_t owner, std::uint32_t number,
     }
     entries_.splice(entries_.begin(), entries_, known->second);
   } else {
-    entries_.push_front({owner, number, bytes, std::move(table)});
-    places_.emplace(Key{owner, number}, entries_.begin());
+    Entries fresh;  // memory may run out at either step, with nothing changed
+    fresh.push_front({owner, number, bytes, std::move(table)});
+    places_.emplace(Key{owner, number}, fresh.begin());
+    entries_.splice(entries_.begin(), fresh);
     bytes_ += bytes;
   }
   while (bytes_ > most_bytes_ && !entries_.empty()) {

@@ -7,6 +7,7 @@
 
 #include "pipeline/plan_run.h"
 #include "pipeline/stage_words.h"
+#include "pipeline/table_bytes.h"
 #include "portfolio/solver_choice.h"
 #include "split_mapf/core/validate.h"
 
@@ -144,7 +145,8 @@ PlanListener BandRun::listenerOn(const WayBand& band) const {
 PlanReport BandRun::planOn(const Instance& part, const PlanListener& listener) {
   log_.leaveStage();
   begin_sec_ = log_.elapsedSec();
-  PlanReport report = PlanRun(part, request_, solvers_, executor_, deadline_, listener).run();
+  const Instance bounded = part.boundedTo(tableBytes(request_.asked));
+  PlanReport report = PlanRun(bounded, request_, solvers_, executor_, deadline_, listener).run();
   moveTimes(report, begin_sec_);
   return report;
 }
