@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "io/file_bytes.h"
 #include "io/json_text.h"
@@ -115,6 +116,97 @@ MapPoint pointOf(const Json& value, const std::string& path, std::size_t robot, 
   return {value[0].get<double>(), value[1].get<double>()};
 }
 
+// Longer plans do not fit into memory; a short text must not ask for all of it.
+constexpr std::uint64_t kMostSteps = std::uint64_t{1} << 24U;
+
+/// Reads from the front of a text.
+class CompactReader {
+ public:
+  explicit CompactReader(const std::string& text) : text_(text) {}
+
+  bool atEnd() const { return at_ == text_.size(); }
+  char take() { return text_[at_++]; }
+  bool isDigit() const { return !atEnd() && text_[at_] >= '0' && text_[at_] <= '9'; }
+  void expect(char wanted, const char* what) {
+    if (atEnd() || take() != wanted) fail(what);
+  }
+  std::uint64_t number(std::uint64_t most, const char* what) {
+    if (!isDigit()) fail(what);
+    std::uint64_t value = 0;
+    while (isDigit()) {
+      value = 10 * value + static_cast<std::uint64_t>(take() - '0');
+      if (value > most) fail(what);
+    }
+    return value;
+  }
+  [[noreturn]] void fail(const char* what) const {
+    throw std::invalid_argument("read " + quote(text_) + ", expected " + what);
+  }
+
+ private:
+  const std::string& text_;
+  std::size_t at_ = 0;
+};
+
+constexpr const char* kFirstCell = "a path like \"12,3 4R2DWU\": first x,y within the map";
+constexpr const char* kMoves = "a path like \"12,3 4R2DWU\": runs of R, L, U, D and W";
+
+Cell readFirstCell(CompactReader& reader) {
+  constexpr std::uint64_t kMostCoordinate = 0x7fffffffU - kMostSteps;
+  Cell cell{};
+  cell.x = static_cast<std::int32_t>(reader.number(kMostCoordinate, kFirstCell));
+  reader.expect(',', kFirstCell);
+  cell.y = static_cast<std::int32_t>(reader.number(kMostCoordinate, kFirstCell));
+  return cell;
+}
+
+Cell readMove(CompactReader& reader) {
+  switch (reader.take()) {
+    case 'R':
+      return {1, 0};
+    case 'L':
+      return {-1, 0};
+    case 'D':
+      return {0, 1};
+    case 'U':
+      return {0, -1};
+    case 'W':
+      return {0, 0};
+    default:
+      reader.fail(kMoves);
+  }
+}
+
+/// See PathForm::kCompact.
+std::vector<Cell> cellsOfCompactPath(const std::string& text) {
+  if (text.empty()) return {};
+  CompactReader reader(text);
+  Cell at = readFirstCell(reader);
+  std::vector<Cell> cells = {at};
+  if (reader.atEnd()) return cells;
+  reader.expect(' ', kMoves);
+  if (reader.atEnd()) reader.fail(kMoves);
+  while (!reader.atEnd()) {
+    const std::uint64_t run = reader.isDigit() ? reader.number(kMostSteps, kMoves) : 1;
+    if (run == 0 || reader.atEnd() || cells.size() + run > kMostSteps) reader.fail(kMoves);
+    const Cell move = readMove(reader);
+    for (std::uint64_t i = 0; i < run; ++i) {
+      at = {at.x + move.x, at.y + move.y};
+      cells.push_back(at);
+    }
+  }
+  return cells;
+}
+
+std::vector<Cell> compactCellsOf(const std::string& text, const std::string& path,
+                                 std::size_t robot) {
+  try {
+    return cellsOfCompactPath(text);
+  } catch (const std::invalid_argument& error) {
+    fail(path, "paths, robot " + std::to_string(robot) + ": " + error.what());
+  }
+}
+
 CellPaths pathsOf(const std::string& path, const Json& document) {
   const Json& lists = document.at("paths");
   if (!lists.is_array()) fail(path, "paths: read " + shown(lists) + ", expected a list of paths");
@@ -122,6 +214,10 @@ CellPaths pathsOf(const std::string& path, const Json& document) {
   paths.reserve(lists.size());
   for (const Json& list : lists) {
     const std::size_t robot = paths.size();
+    if (list.is_string()) {
+      paths.push_back(compactCellsOf(list.get_ref<const std::string&>(), path, robot));
+      continue;
+    }
     if (!list.is_array()) {
       fail(path, "paths, robot " + std::to_string(robot) + ": read " + shown(list) +
                      ", expected a list of cells");

@@ -6,6 +6,8 @@
 #include "io/file_bytes.h"
 #include "io/json_text.h"
 #include "io/layout_json.h"
+#include "split_mapf/core/error.h"
+#include "split_mapf/core/wording.h"
 #include "split_mapf/io/plan_json.h"
 
 namespace split_mapf {
@@ -146,9 +148,59 @@ void writePoses(std::ostream& out, const DiscResult& discs) {
   writeList(out, "poses", rows);
 }
 
+char letterOf(Cell from, Cell to) {
+  if (to.x != from.x) return to.x > from.x ? 'R' : 'L';
+  if (to.y != from.y) return to.y > from.y ? 'D' : 'U';
+  return 'W';
+}
+
+/// See PathForm::kCompact.
+std::string compactPath(const Grid& grid, const Path& path) {
+  if (path.empty()) return "";
+  Cell at = grid.cellOf(path.front());
+  std::string text = std::to_string(at.x) + "," + std::to_string(at.y);
+  char last = ' ';
+  std::uint32_t run = 0;
+  const auto end_run = [&] {
+    if (run > 1) text += std::to_string(run);
+    if (run > 0) text += last;
+  };
+  if (path.size() > 1) text += ' ';
+  for (std::size_t t = 1; t < path.size(); ++t) {
+    const Cell next = grid.cellOf(path[t]);
+    const char letter = letterOf(at, next);
+    if (letter != last) {
+      end_run();
+      run = 0;
+      last = letter;
+    }
+    ++run;
+    at = next;
+  }
+  end_run();
+  return text;
+}
+
+/// A path a line, each written as soon as it is made: large plans are never there as text.
+void writePaths(std::ostream& out, const Grid& grid, const Plan* plan, PathForm form) {
+  out << "  \"paths\": [";
+  const char* separator = "\n    ";
+  for (std::size_t i = 0; plan != nullptr && i < plan->paths.size(); ++i) {
+    const Path& path = plan->paths[i];
+    out << separator;
+    if (form == PathForm::kCompact) {
+      out << '"' << compactPath(grid, path) << '"';
+    } else {
+      out << pathRow(grid, path);
+    }
+    separator = ",\n    ";
+  }
+  out << (plan == nullptr || plan->paths.empty() ? "]" : "\n  ]");
+}
+
 /// @param discs  of robots that have size, or null.
 void writeWhole(std::ostream& out, const Grid& grid, const PlanReport& report,
-                const DiscResult* discs) {
+                const DiscResult* discs, PathForm form) {
   out << "{\n";
   writeRequest(out, report);
   writeCosts(out, report);
@@ -157,19 +209,24 @@ void writeWhole(std::ostream& out, const Grid& grid, const PlanReport& report,
   out << "  \"layout\": " << (report.layout ? layoutJson(grid, *report.layout, "  ") : "null")
       << ",\n";
   if (discs != nullptr) writeDiscs(out, grid, *discs);
-  std::vector<std::string> rows;
-  if (report.plan) {
-    for (const Path& path : report.plan->paths) rows.push_back(pathRow(grid, path));
-  }
-  writeList(out, "paths", rows);
+  writePaths(out, grid, report.plan ? &*report.plan : nullptr, form);
   if (discs != nullptr) writePoses(out, *discs);
   out << "\n}\n";
 }
 
 }  // namespace
 
-void writePlanJson(std::ostream& out, const Grid& grid, const PlanReport& report) {
-  writeWhole(out, grid, report, nullptr);
+std::string toString(PathForm form) { return form == PathForm::kCells ? "cells" : "compact"; }
+
+PathForm parsePathForm(const std::string& text) {
+  for (const PathForm form : {PathForm::kCells, PathForm::kCompact}) {
+    if (toString(form) == text) return form;
+  }
+  throw OptionError("form of paths " + quote(text) + " is unknown; expected cells or compact");
+}
+
+void writePlanJson(std::ostream& out, const Grid& grid, const PlanReport& report, PathForm form) {
+  writeWhole(out, grid, report, nullptr, form);
 }
 
 void writePlanJson(const std::string& path, const Grid& grid, const PlanReport& report) {
@@ -180,7 +237,7 @@ void writePlanJson(const std::string& path, const Grid& grid, const PlanReport& 
 
 void writePlanJson(std::ostream& out, const Grid& grid, const PlanReport& report,
                    const DiscResult& discs) {
-  writeWhole(out, grid, report, &discs);
+  writeWhole(out, grid, report, &discs, PathForm::kCells);
 }
 
 void writePlanJson(const std::string& path, const Grid& grid, const PlanReport& report,

@@ -218,7 +218,7 @@ class PlanCall {
     const Grid no_grid(1, 1, {true});  // stands in where memory ran out before the map was read
     const Grid& grid = instance_ ? instance_->grid() : no_grid;
     if (options_.viewer) return writeForViewer(out, *options_.viewer, *instance_, *report.plan);
-    if (!problem_) return writePlanJson(out, grid, report);
+    if (!problem_) return writePlanJson(out, grid, report, options_.path_form);
     writePlanJson(out, grid, report,
                   discResultOf(discs_->map, discs_->robots, *problem_,
                                options_.robots.robot_speed_mps, report));

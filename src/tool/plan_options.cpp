@@ -59,6 +59,8 @@ void declarePlanOptions(CommandLine& line) {
   line.offer("output", "FILE", "write the result as JSON; - for standard output");
   line.offerFlag("write-better",
                  "write the --output file with each better plan, while --refine goes on");
+  line.offer("paths", "FORM",
+             "paths in the output: cells, or compact, \"x,y 4R2DWU\", a twentieth of it (cells)");
   declareViewerFormat(line);
   line.offerFlag("progress", "show a progress line also where standard error is no terminal");
   line.offerFlag("quiet", "print nothing but errors");
@@ -105,6 +107,13 @@ PlanOptions readPlanOptions(const CommandLine& line) {
   options.viewer = readViewerFormat(line);
   if (options.viewer && options.on_roadmap) {
     throw OptionError("option --export needs robots without size");
+  }
+  if (line.has("paths")) {
+    options.path_form = parsePathForm(line.text("paths"));
+    if (options.on_roadmap) {
+      throw OptionError("option --paths needs robots without size, which move from cell to cell");
+    }
+    if (options.viewer) throw OptionError("options --paths and --export exclude each other");
   }
   options.quiet = line.has("quiet");
   if (options.quiet && line.has("progress")) {

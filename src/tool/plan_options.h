@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "split_mapf/io/plan_json.h"
 #include "split_mapf/pipeline/planner.h"
 #include "tool/command_line.h"
 #include "tool/robot_options.h"
@@ -21,9 +22,10 @@ struct PlanOptions {
   bool on_roadmap = false;
   PlanRequest request;  ///< `threads` is set
   std::optional<std::uint64_t> memory_limit_mib;
-  std::string output_file;             ///< empty: none; "-": standard output
-  bool write_better = false;           ///< the output file is written with each better plan
-  std::optional<ViewerFormat> viewer;  ///< for whom the output file is, where not for us
+  PathForm path_form = PathForm::kCells;  ///< of the output
+  std::string output_file;                ///< empty: none; "-": standard output
+  bool write_better = false;              ///< the output file is written with each better plan
+  std::optional<ViewerFormat> viewer;     ///< for whom the output file is, where not for us
   bool progress = false;
   bool quiet = false;
 };

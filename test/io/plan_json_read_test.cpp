@@ -19,6 +19,25 @@ TEST_F(PlanJsonReadTest, ReadsPaths) {
             (CellPaths{{{0, 1}, {2, 3}}, {{4, 5}}}));
 }
 
+TEST_F(PlanJsonReadTest, ReadsCompactPaths) {
+  EXPECT_EQ(pathsOf(R"({"paths": ["1,2 2RDW", "", "5,6", [[0,1]], "3,3 LU"]})"),
+            (CellPaths{{{1, 2}, {2, 2}, {3, 2}, {3, 3}, {3, 3}},
+                       {},
+                       {{5, 6}},
+                       {{0, 1}},
+                       {{3, 3}, {2, 3}, {2, 2}}}));
+}
+
+TEST_F(PlanJsonReadTest, RefusesCompactPathsThatAreNone) {
+  for (const char* text : {"1", "1,", ",2", "1,2R", "1,2 ", "1,2 2", "1,2 0R", "1,2 X", "1,2 R R",
+                           "-1,2 R", "99999999999,2", "1,2 99999999999W", "1,2 16777216W", "x"}) {
+    const std::string error = errorOfJson(R"({"paths": ["1,2", ")" + std::string(text) + "\"]}");
+    const std::string begin =
+        "a.json: paths, robot 1: read '" + std::string(text) + "', expected a path like";
+    EXPECT_EQ(error.substr(0, begin.size()), begin);
+  }
+}
+
 TEST_F(PlanJsonReadTest, LeavesTheJudgementToTheValidator) {
   EXPECT_EQ(pathsOf(R"({"paths": []})"), CellPaths{});
   EXPECT_EQ(pathsOf(R"({"paths": [[], [[-1, 2147483647]]]})"), (CellPaths{{}, {{-1, 2147483647}}}));

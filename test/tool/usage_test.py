@@ -29,7 +29,7 @@ class HelpTest(CommandTest):
         text = " ".join(self.expect(0, "plan", "--help").stdout.split())
         for option in ["--map FILE", "--scen FILE", "--agents N", "--solver-option NAME=VALUE",
                        "--split-option NAME=VALUE", "--memory-limit MIB",
-                       "--table-memory MIB", "--output FILE",
+                       "--table-memory MIB", "--paths FORM", "--output FILE",
                        "--progress", "--quiet"]:
             self.assertIn(option, text)
         for default in ["sum_of_costs (makespan)", "of ECBS (1.5)", "included (60)",
@@ -97,6 +97,7 @@ class BadUsageTest(CommandTest):
     def test_unknown_names(self):
         self.refuse_plan(["'best'", "ecbs"], "--solver", "best")
         self.refuse_plan(["'flowtime'", "makespan"], "--objective", "flowtime")
+        self.refuse_plan(["'short'", "compact"], "--paths", "short")
         self.refuse_plan(["'nonsense'", "Ns | RxCs"], "--split", "nonsense")
         self.refuse_plan(["'speed'", "ecbs"], "--solver", "ecbs", "--solver-option", "speed=9")
         self.refuse_plan("order", "--solver", "prioritized", "--solver-option", "order=best")

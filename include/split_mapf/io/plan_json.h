@@ -15,6 +15,16 @@
 
 namespace split_mapf {
 
+/// How `paths` are written. Readers tell them apart by themselves.
+enum class PathForm {
+  kCells,    ///< [[x,y], ...], a cell a step
+  kCompact,  ///< "x,y 4R2DWU": the first cell, then runs of moves; a twentieth of the bytes or so.
+             ///< R and L: x, D and U: y, which grows downwards; W: a step of waiting
+};
+std::string toString(PathForm form);
+/// "cells" or "compact". @throws OptionError for anything else.
+PathForm parsePathForm(const std::string& text);
+
 /// Writes a report as one JSON object, a field a line and a robot's path a line, with every field
 /// that the public interface lists. Without a plan `paths` is [] and makespan, sum_of_costs, gap
 /// and first_plan_s are null. The lower bounds are null when a robot is cut off from its goal, gap
@@ -23,7 +33,9 @@ namespace split_mapf {
 /// bytes replaced. The layout's owners come as [region, cells] runs over the whole grid, row by
 /// row, region -1 where it is blocked.
 /// @pre the plan's vertices are those of `grid`. The caller checks the stream. Cost: O(entries).
-void writePlanJson(std::ostream& out, const Grid& grid, const PlanReport& report);
+/// @pre for kCompact, `grid` has moves between neighbouring cells only.
+void writePlanJson(std::ostream& out, const Grid& grid, const PlanReport& report,
+                   PathForm form = PathForm::kCells);
 /// The same into a file. @throws InputError when it cannot be written in full.
 void writePlanJson(const std::string& path, const Grid& grid, const PlanReport& report);
 
@@ -66,11 +78,12 @@ struct DiscClaims {
 /// that is no number of 0 or more, and another number of `radii` than of `poses`.
 DiscClaims readDiscPlanJson(const std::string& path);
 
-/// Reads the `paths` of such a file; the other fields are left alone. What the paths claim is not
-/// judged: an empty path, a jump or a cell outside the map is validate()'s to report.
+/// Reads the `paths` of such a file, of either form; the other fields are left alone. What the
+/// paths claim is not judged: an empty path, a jump or a cell outside the map is validate()'s to
+/// report.
 /// @throws InputError "path:line: ..." for malformed JSON; "path: ..." for a missing or second
-/// `paths`, for a coordinate that is no 32-bit integer, naming robot and step, and for a plan of
-/// robots that have size.
+/// `paths`, for a coordinate that is no 32-bit integer, naming robot and step, for a compact path
+/// that is none, naming the robot, and for a plan of robots that have size.
 CellPaths readPlanJson(const std::string& path);
 /// Reads the `layout` of such a file; nothing when it is null. @throws InputError "path: ..." for a
 /// layout that is none of `grid`: too few or too many cells, an owner of a blocked cell, a state
