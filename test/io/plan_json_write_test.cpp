@@ -159,6 +159,15 @@ TEST_F(PlanJsonFileTest, ReadsWhatItWrites) {
   EXPECT_EQ(readPlanJson(pathOf("a.json")), cellPathsOf(small_grid, *report.plan));
 }
 
+TEST_F(PlanJsonFileTest, ReadsCompactPathsThatItWrites) {
+  PlanReport report = solvedReport();
+  report.plan = Plan{{{0, 1, 3, 4, 4, 3, 1, 0}, {2, 2, 2}, {4}}};
+  std::ostringstream out;
+  writePlanJson(out, small_grid, report, PathForm::kCompact);
+  EXPECT_EQ(Json::parse(out.str()).at("paths"), (Json{"0,0 RDRWLUL", "0,1 2W", "2,1"}));
+  EXPECT_EQ(readPlanJson(file("a.json", out.str())), cellPathsOf(small_grid, *report.plan));
+}
+
 TEST_F(PlanJsonFileTest, SaysWhenTheDiskIsFull) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
   EXPECT_EQ(errorOf([] { writePlanJson("/dev/full", small_grid, solvedReport()); }),
