@@ -78,6 +78,9 @@ class RingBreaking {
       const std::uint32_t own = order[event].robot;
       const auto cost = static_cast<std::uint32_t>(plan_.paths[own].size() - 1);
       const std::uint32_t latest = best.empty() ? kForever - 1 : cost + slack - 1;
+      // From its start it has looked already.
+      if (reach == kForever && keptOf(order[event], kReach) == keptOf(order[event], reach))
+        continue;
       Path path = pathWithout(order[event], reach, latest);
       if (path.empty()) continue;
       slack = std::max(static_cast<std::uint32_t>(path.size() - 1), cost) - cost;
@@ -91,11 +94,16 @@ class RingBreaking {
     return true;
   }
 
+  /// The steps of its path that a robot keeps which looks for another way around a visit.
+  std::uint32_t keptOf(const Visit& visit, std::uint32_t reach) const {
+    const Path& own = plan_.paths[visit.robot];
+    return std::max(departures_(visit.robot), keptUntil(own, visit.step - 1, reach));
+  }
+
   /// The earliest path on which the robot does not come to the vertex at the ring's step.
   Path pathWithout(const Visit& visit, std::uint32_t reach, std::uint32_t latest_arrival) {
     const Path& own = plan_.paths[visit.robot];
-    const std::uint32_t kept =
-        std::max(departures_(visit.robot), keptUntil(own, visit.step - 1, reach));
+    const std::uint32_t kept = keptOf(visit, reach);
     table_.removeTail(visit.robot, own, kept);
     table_.toggleStep(visit.vertex, visit.step);
     const HeldDistances distances = instance_.distances(visit.robot);

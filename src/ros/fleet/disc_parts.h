@@ -70,7 +70,8 @@ class DiscParts {
   double reach_m_ = 0;
 };
 
-/// A plan as it is kept: without the moment at which it was sent. Equal plans have equal bytes.
+/// A plan as it is kept: what is executed of it, without moments and stamped poses. Plans that are
+/// executed alike have equal bytes.
 std::string bytesOf(MultiRobotPlan plan);
 
 }  // namespace split_mapf

@@ -21,15 +21,23 @@
 namespace split_mapf {
 namespace {
 
+// Before the bytes of a plan: a node of another build may have another message.
+const std::string kMessage = ros::message_traits::md5sum<MultiRobotPlan>();
+
 MultiRobotPlan readPlan(const std::string& bytes) {
+  if (bytes.compare(0, kMessage.size(), kMessage) != 0) {
+    throw InputError("its plan was written by another version of this node");
+  }
   MultiRobotPlan plan;
-  std::vector<std::uint8_t> copy(bytes.begin(), bytes.end());
+  std::vector<std::uint8_t> copy(bytes.begin() + static_cast<std::ptrdiff_t>(kMessage.size()),
+                                 bytes.end());
   ros::serialization::IStream stream(copy.data(), static_cast<std::uint32_t>(copy.size()));
   try {
     ros::serialization::deserialize(stream, plan);
   } catch (const ros::serialization::StreamOverrunException&) {
     throw InputError("its plan cannot be read");
   }
+  if (stream.getLength() != 0) throw InputError("its plan has more bytes than it should have");
   return plan;
 }
 
@@ -38,10 +46,12 @@ MultiRobotPlan readPlan(const std::string& bytes) {
 std::string bytesOf(MultiRobotPlan plan) {
   plan.header.seq = 0;
   plan.header.stamp = ros::Time();
+  plan.grid.map_load_time = ros::Time();
+  for (RobotPath& path : plan.paths) path.path = nav_msgs::Path();  // what `cells` says, at length
   std::vector<std::uint8_t> buffer(ros::serialization::serializationLength(plan));
   ros::serialization::OStream stream(buffer.data(), static_cast<std::uint32_t>(buffer.size()));
   ros::serialization::serialize(stream, plan);
-  return {buffer.begin(), buffer.end()};
+  return kMessage + std::string(buffer.begin(), buffer.end());
 }
 
 /// Before any route that depends on it is sent.
@@ -111,6 +121,7 @@ void FleetServer::takeUpAgain(double now) {
     ROS_WARN_THROTTLE(10, "an execution was under way when this node ended; waiting for its map");
   } catch (const std::exception& error) {
     kept_may_exist_ = false;
+    fleet_.reset();
     discs_.reset();
     left_out_.clear();
     faults_.clear();
@@ -144,6 +155,10 @@ void FleetServer::takeUpFleet(const FleetSnapshot& kept, double now) {
 FleetPart FleetServer::takeUpPart(const FleetSnapshot::Part& kept,
                                   const nav_msgs::OccupancyGrid& map) {
   const MultiRobotPlan plan = readPlan(kept.plan);
+  if (kept.number >= DiscParts::kParts) {
+    throw InputError("it is in part " + std::to_string(kept.number + 1) + " of " +
+                     std::to_string(DiscParts::kParts));
+  }
   try {
     discs_ = std::make_shared<const DiscParts>(plan, map, options_.server.goal);
   } catch (const GoalError& error) {
