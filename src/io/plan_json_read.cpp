@@ -116,8 +116,10 @@ MapPoint pointOf(const Json& value, const std::string& path, std::size_t robot, 
   return {value[0].get<double>(), value[1].get<double>()};
 }
 
-// Longer plans do not fit into memory; a short text must not ask for all of it.
 constexpr std::uint64_t kMostSteps = std::uint64_t{1} << 24U;
+// A short file must not ask for all memory: cells of all its compact paths, and more for each byte.
+constexpr std::uint64_t kCellsOfAnyFile = std::uint64_t{1} << 20U;
+constexpr std::uint64_t kCellsAByte = 1024;
 
 /// Reads from the front of a text.
 class CompactReader {
@@ -177,8 +179,8 @@ Cell readMove(CompactReader& reader) {
   }
 }
 
-/// See PathForm::kCompact.
-std::vector<Cell> cellsOfCompactPath(const std::string& text) {
+/// See PathForm::kCompact. @param most  cells that it may have.
+std::vector<Cell> cellsOfCompactPath(const std::string& text, std::uint64_t most) {
   if (text.empty()) return {};
   CompactReader reader(text);
   Cell at = readFirstCell(reader);
@@ -189,6 +191,7 @@ std::vector<Cell> cellsOfCompactPath(const std::string& text) {
   while (!reader.atEnd()) {
     const std::uint64_t run = reader.isDigit() ? reader.number(kMostSteps, kMoves) : 1;
     if (run == 0 || reader.atEnd() || cells.size() + run > kMostSteps) reader.fail(kMoves);
+    if (cells.size() + run > most) reader.fail("fewer steps, in so short a file");
     const Cell move = readMove(reader);
     for (std::uint64_t i = 0; i < run; ++i) {
       at = {at.x + move.x, at.y + move.y};
@@ -199,9 +202,9 @@ std::vector<Cell> cellsOfCompactPath(const std::string& text) {
 }
 
 std::vector<Cell> compactCellsOf(const std::string& text, const std::string& path,
-                                 std::size_t robot) {
+                                 std::size_t robot, std::uint64_t most) {
   try {
-    return cellsOfCompactPath(text);
+    return cellsOfCompactPath(text, most);
   } catch (const std::invalid_argument& error) {
     fail(path, "paths, robot " + std::to_string(robot) + ": " + error.what());
   }
@@ -212,10 +215,14 @@ CellPaths pathsOf(const std::string& path, const Json& document) {
   if (!lists.is_array()) fail(path, "paths: read " + shown(lists) + ", expected a list of paths");
   CellPaths paths;
   paths.reserve(lists.size());
+  std::uint64_t room = kCellsOfAnyFile;
   for (const Json& list : lists) {
     const std::size_t robot = paths.size();
     if (list.is_string()) {
-      paths.push_back(compactCellsOf(list.get_ref<const std::string&>(), path, robot));
+      const auto& text = list.get_ref<const std::string&>();
+      room += kCellsAByte * text.size();
+      paths.push_back(compactCellsOf(text, path, robot, room));
+      room -= paths.back().size();
       continue;
     }
     if (!list.is_array()) {

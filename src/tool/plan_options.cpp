@@ -46,8 +46,8 @@ void declarePlanOptions(CommandLine& line) {
                  textOf(defaults.time_limit_sec) + ")");
   line.offer("memory-limit", "MIB", "memory that the process may use (no limit)");
   line.offer("table-memory", "MIB",
-             "memory for distance tables; the plan does not depend on it (a quarter of the "
-             "machine's)");
+             "memory for distance tables; the plan does not depend on it (a quarter of "
+             "--memory-limit, or of the machine's)");
   line.offer("threads", "N", "worker threads (one a processor)");
   line.offer("seed", "N", "all randomness (" + std::to_string(defaults.seed) + ")");
   line.offer("refine", "SECONDS",
@@ -98,6 +98,8 @@ PlanOptions readPlanOptions(const CommandLine& line) {
   }
   if (line.has("table-memory")) {
     request.table_bytes = line.wholeNumber("table-memory", 0, 1, kMostMib) * kMebibyte;
+  } else if (options.memory_limit_mib) {
+    request.table_bytes = *options.memory_limit_mib * kMebibyte / 4;
   }
   options.output_file = line.text("output", "");
   options.write_better = line.has("write-better");
@@ -110,6 +112,9 @@ PlanOptions readPlanOptions(const CommandLine& line) {
   }
   if (line.has("paths")) {
     options.path_form = parsePathForm(line.text("paths"));
+    if (options.output_file.empty()) {
+      throw OptionError("option --paths needs a file: --output FILE");
+    }
     if (options.on_roadmap) {
       throw OptionError("option --paths needs robots without size, which move from cell to cell");
     }

@@ -38,6 +38,13 @@ TEST_F(PlanJsonReadTest, RefusesCompactPathsThatAreNone) {
   }
 }
 
+TEST_F(PlanJsonReadTest, AShortFileDoesNotAskForAllMemory) {
+  std::string list = R"("0,0 999999W")";
+  for (int i = 0; i < 20; ++i) list += R"(, "0,0 999999W")";
+  EXPECT_EQ(errorOfJson(R"({"paths": [)" + list + "]}"),
+            "a.json: paths, robot 1: read '0,0 999999W', expected fewer steps, in so short a file");
+}
+
 TEST_F(PlanJsonReadTest, LeavesTheJudgementToTheValidator) {
   EXPECT_EQ(pathsOf(R"({"paths": []})"), CellPaths{});
   EXPECT_EQ(pathsOf(R"({"paths": [[], [[-1, 2147483647]]]})"), (CellPaths{{}, {{-1, 2147483647}}}));
