@@ -22,14 +22,14 @@ namespace split_mapf {
 namespace {
 
 // Before the bytes of a plan: a node of another build may have another message.
-const std::string kMessage = ros::message_traits::md5sum<MultiRobotPlan>();
+const std::string message_sum = ros::message_traits::md5sum<MultiRobotPlan>();
 
 MultiRobotPlan readPlan(const std::string& bytes) {
-  if (bytes.compare(0, kMessage.size(), kMessage) != 0) {
+  if (bytes.compare(0, message_sum.size(), message_sum) != 0) {
     throw InputError("its plan was written by another version of this node");
   }
   MultiRobotPlan plan;
-  std::vector<std::uint8_t> copy(bytes.begin() + static_cast<std::ptrdiff_t>(kMessage.size()),
+  std::vector<std::uint8_t> copy(bytes.begin() + static_cast<std::ptrdiff_t>(message_sum.size()),
                                  bytes.end());
   ros::serialization::IStream stream(copy.data(), static_cast<std::uint32_t>(copy.size()));
   try {
@@ -51,7 +51,7 @@ std::string bytesOf(MultiRobotPlan plan) {
   std::vector<std::uint8_t> buffer(ros::serialization::serializationLength(plan));
   ros::serialization::OStream stream(buffer.data(), static_cast<std::uint32_t>(buffer.size()));
   ros::serialization::serialize(stream, plan);
-  return kMessage + std::string(buffer.begin(), buffer.end());
+  return message_sum + std::string(buffer.begin(), buffer.end());
 }
 
 /// Before any route that depends on it is sent.
