@@ -34,29 +34,48 @@ GuardedSplitter::GuardedSplitter(std::string called, Make make, SplitRequest req
       watch_(std::move(watch)) {}
 
 bool GuardedSplitter::split(const Deadline& deadline) {
-  return ask(
+  const bool has_pieces = ask(
       [deadline](Work& work) {
         work.splitter =
             work.make(work.request, SplitQuestion{work.instance, work.checker, work.seed, {}});
         return work.splitter && work.splitter->split(deadline);
       },
-      deadline, true);
+      deadline);
+  if (has_pieces) {
+    takeTree();
+  } else if (!deadline.expired()) {
+    fail("made no pieces");
+  }
+  return has_pieces;
 }
 
 bool GuardedSplitter::cutAnew(PieceId piece, const std::unordered_set<PieceId>& failed,
                               const Deadline& deadline) {
-  return ask([piece, failed,
-              deadline](Work& work) { return work.splitter->cutAnew(piece, failed, deadline); },
-             deadline, false);
+  return replace(
+      piece,
+      [piece, failed, deadline](Work& work) {
+        return work.splitter->cutAnew(piece, failed, deadline);
+      },
+      deadline);
 }
 
 bool GuardedSplitter::merge(PieceId piece, const Deadline& deadline) {
-  return ask([piece, deadline](Work& work) { return work.splitter->merge(piece, deadline); },
-             deadline, false);
+  return replace(
+      piece, [piece, deadline](Work& work) { return work.splitter->merge(piece, deadline); },
+      deadline);
 }
 
-bool GuardedSplitter::ask(std::function<bool(Work&)> question, const Deadline& deadline,
-                          bool must) {
+bool GuardedSplitter::replace(PieceId piece, std::function<bool(Work&)> question,
+                              const Deadline& deadline) {
+  if (!ask(std::move(question), deadline)) return false;
+  replaced_.insert(piece);
+  known_.erase(piece);
+  takeTree();
+  return true;
+}
+
+bool GuardedSplitter::ask(std::function<bool(Work&)> question, const Deadline& deadline) {
+  deadline.require();
   if (watch_->abandoned() > 0) {
     fail(
         "does not stop: a call of it that was given up still runs, and until it ends there is no "
@@ -82,16 +101,27 @@ bool GuardedSplitter::ask(std::function<bool(Work&)> question, const Deadline& d
   } catch (...) {
     fail("threw something that is no std::exception");
   }
-  if (!ended) {
-    throw SplitterFailure(interruptionOf(deadline),
-                          called_ + " did not stop at its deadline and was given up");
-  }
-  if (must && !work_->answer && !deadline.expired()) fail("made no pieces");
-  if (!work_->answer) return false;
+  if (ended) return work_->answer;
+  throw SplitterFailure(interruptionOf(deadline),
+                        called_ + " did not stop at its deadline and was given up");
+}
+
+void GuardedSplitter::takeTree() {
   const std::string fault = findTreeFault(work_->tree, work_->instance);
   if (!fault.empty()) fail("made pieces that cannot be solved: " + fault);
+  for (const PieceHandle& piece : piecesOf(work_->tree)) {
+    const std::string name = "piece " + std::to_string(piece->id);
+    // Whoever repairs would ask for the same again without end.
+    if (replaced_.count(piece->id) > 0) {
+      fail("says that it has replaced " + name + ", which is among its pieces");
+    }
+    // Plans are kept by the id, and one of other robots does not fit.
+    const auto [known, is_new] = known_.emplace(piece->id, piece);
+    if (!is_new && !isSamePiece(*known->second, *piece)) {
+      fail("made pieces that cannot be told apart: " + name + " was another one before");
+    }
+  }
   tree_ = work_->tree;
-  return true;
 }
 
 void GuardedSplitter::fail(const std::string& why) const {

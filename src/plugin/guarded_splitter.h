@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <unordered_set>
 
 #include "plugin/watched_call.h"
@@ -30,14 +31,20 @@ class GuardedSplitter : public Splitter {
 
  private:
   struct Work;
-  /// Takes the tree as it is then. @param must  whether false is an answer only at the deadline.
-  bool ask(std::function<bool(Work&)> question, const Deadline& deadline, bool must);
+  /// @throws Interrupted when the deadline has expired already: then the splitter is not asked.
+  bool ask(std::function<bool(Work&)> question, const Deadline& deadline);
+  /// Asks for a tree without this piece.
+  bool replace(PieceId piece, std::function<bool(Work&)> question, const Deadline& deadline);
+  /// Takes the tree as it is now.
+  void takeTree();
   [[noreturn]] void fail(const std::string& why) const;
 
   const std::string called_;
   const std::shared_ptr<Work> work_;
   const std::shared_ptr<CallWatch> watch_;
   PieceTree tree_;
+  std::unordered_set<PieceId> replaced_;            ///< may never come back
+  std::unordered_map<PieceId, PieceHandle> known_;  ///< all others of this tree and earlier ones
 };
 
 }  // namespace split_mapf

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <exception>
+#include <mutex>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "plugin/guarded_solver.h"
 #include "plugin/guarded_splitter.h"
@@ -61,6 +63,15 @@ void add(Registry& registry, Info info, const std::string& origin) {
   }
 }
 
+/// Lets a plug-in live as long as the program, whatever becomes of the methods: a call of it that
+/// was given up may use it while main() ends.
+void keep(std::shared_ptr<const void> plugin) {
+  static std::mutex mutex;
+  static auto& kept = *new std::vector<std::shared_ptr<const void>>;  // never destroyed
+  const std::lock_guard<std::mutex> lock(mutex);
+  kept.push_back(std::move(plugin));
+}
+
 }  // namespace
 
 void addSolver(std::shared_ptr<const SolverPlugin> plugin, const std::string& origin,
@@ -69,8 +80,7 @@ void addSolver(std::shared_ptr<const SolverPlugin> plugin, const std::string& or
   const std::string called = "solver " + quote(info.name) + " of plug-in " + quote(origin);
   info.traits = guardedTraits(info.traits);
   info.description += " (plug-in " + shown(origin) + ")";
-  info.make = [plugin = std::move(plugin), inner_make = std::move(info.make), called,
-               name = info.name, traits = info.traits,
+  info.make = [inner_make = std::move(info.make), called, name = info.name, traits = info.traits,
                watch = std::make_shared<CallWatch>()](const SolverOptions& options) {
     std::shared_ptr<const Solver> inner =
         withOptionErrors(called, [&] { return inner_make(options); });
@@ -79,6 +89,7 @@ void addSolver(std::shared_ptr<const SolverPlugin> plugin, const std::string& or
                                            options.objective, watch);
   };
   add(methods.solvers, std::move(info), origin);
+  keep(std::move(plugin));
 }
 
 void addSplitter(std::shared_ptr<const SplitterPlugin> plugin, const std::string& origin,
@@ -95,12 +106,12 @@ void addSplitter(std::shared_ptr<const SplitterPlugin> plugin, const std::string
       withOptionErrors(called, [&] { check(request); });
     };
   }
-  info.make = [plugin = std::move(plugin), inner_make = std::move(info.make), called,
-               watch = std::make_shared<CallWatch>()](const SplitRequest& request,
-                                                      const SplitQuestion& question) {
+  info.make = [inner_make = std::move(info.make), called, watch = std::make_shared<CallWatch>()](
+                  const SplitRequest& request, const SplitQuestion& question) {
     return std::make_unique<GuardedSplitter>(called, inner_make, request, question, watch);
   };
   add(methods.splitters, std::move(info), origin);
+  keep(std::move(plugin));
 }
 
 }  // namespace split_mapf

@@ -49,4 +49,13 @@ std::string findTreeFault(const PieceTree& tree, const Instance& whole) {
   return "robot " + std::to_string(left_out - has_piece.begin()) + " is in no piece";
 }
 
+bool isSamePiece(const Piece& one, const Piece& other) {
+  if (&one == &other) return true;
+  const bool same_map = one.map == other.map || (one.map && other.map && *one.map == *other.map);
+  return same_map && one.robots == other.robots &&
+         one.instance->sharedGrid() == other.instance->sharedGrid() &&
+         one.instance->starts() == other.instance->starts() &&
+         one.instance->goals() == other.instance->goals();
+}
+
 }  // namespace split_mapf

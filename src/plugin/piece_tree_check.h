@@ -11,4 +11,7 @@ namespace split_mapf {
 /// the stitched plan is valid is for the validator. Cost: O(robots and vertices of all pieces).
 std::string findTreeFault(const PieceTree& tree, const Instance& whole);
 
+/// Whether a plan of one of them is one of the other. @pre neither has a fault.
+bool isSamePiece(const Piece& one, const Piece& other);
+
 }  // namespace split_mapf

@@ -57,6 +57,8 @@ void loadPlugins(const std::string& file, Methods& methods) {
     throw;
   } catch (const std::exception& error) {
     refuseLibrary(file, std::string("threw while it was loaded: ") + shown(error.what()));
+  } catch (...) {
+    refuseLibrary(file, "threw something that is no std::exception while it was loaded");
   }
   if (sink.taken() == 0) refuseLibrary(file, "exports no plug-ins");
 }

@@ -4,7 +4,9 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <optional>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -37,12 +39,15 @@ void run(Call& call, std::atomic<int>& abandoned) {
   }
   call.body = nullptr;  // before the end is told: what it owns may be large
   const std::lock_guard<std::mutex> lock(call.mutex);
-  call.error = std::move(error);  // whoever waits lets go of it, before a library may be unloaded
   call.has_ended = true;
+  // The error is of the plug-in's making: whoever waits lets go of it, or this thread does before
+  // it is told that it has ended.
   if (call.is_abandoned) {
+    error = nullptr;
     --abandoned;
     --abandoned_calls;
   }
+  call.error = std::move(error);
   call.changed.notify_all();
 }
 
@@ -53,7 +58,11 @@ bool CallWatch::call(std::function<void()> body, const Deadline& deadline) {
   constexpr std::chrono::duration<double> kGrace(kGraceSec);
   const auto call = std::make_shared<Call>();
   call->body = std::move(body);
-  std::thread([call, abandoned = abandoned_] { run(*call, *abandoned); }).detach();
+  try {
+    std::thread([call, abandoned = abandoned_] { run(*call, *abandoned); }).detach();
+  } catch (const std::system_error&) {
+    throw std::bad_alloc();  // that no thread can be started is not the plug-in's fault
+  }
   std::unique_lock<std::mutex> lock(call->mutex);
   std::optional<Clock::time_point> overdue;
   while (!call->has_ended) {

@@ -18,7 +18,7 @@ class CallWatch {
   /// rethrown. False when it has not, kGraceSec after the deadline has expired: then it goes on
   /// alone, and is destroyed when it ends. So it may use nothing but what it owns, and such that
   /// several threads may use.
-  /// @throws std::system_error when no thread can be started.
+  /// @throws std::bad_alloc when no thread can be started.
   bool call(std::function<void()> body, const Deadline& deadline);
   /// Of those that were given up, how many have not ended yet.
   int abandoned() const { return *abandoned_; }

@@ -1,6 +1,7 @@
 #include "plugin/misbehaving_plugin.h"
 
 #include <chrono>
+#include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -13,6 +14,7 @@
 namespace split_mapf::test {
 
 std::atomic<bool> misbehaving_may_end{false};
+std::atomic<bool> misbehaving_has_begun{false};
 
 namespace {
 
@@ -24,6 +26,7 @@ std::string howOf(const std::map<std::string, std::string>& values) {
 }
 
 void hang() {
+  misbehaving_has_begun = true;
   while (!misbehaving_may_end) std::this_thread::sleep_for(std::chrono::milliseconds(5));
 }
 
@@ -38,8 +41,9 @@ class Misbehaving : public Solver {
     if (how_ == "throw_int") throw 7;
     if (how_ == "hang") hang();
     if (how_ == "late") {
+      misbehaving_has_begun = true;
       while (!request.deadline.expired()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      std::this_thread::sleep_for(std::chrono::milliseconds(200));
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
       result.termination = Termination::kTimeout;
       result.plan.reset();
     }
@@ -90,20 +94,32 @@ class MisbehavingPieces : public WholeWhereItFails {
     }
     std::vector<PieceHandle> pieces = {std::make_shared<const Piece>(piece)};
     if (how_ == "null") pieces = {nullptr};
-    if (how_ == "seam") {
+    if (how_ == "seam" || how_ == "reuse_id") {
       piece.id = nextId();
       pieces.push_back(std::make_shared<const Piece>(piece));
     }
     setTree(PieceTree::sequence(pieces));
     return true;
   }
-  bool merge(PieceId /*piece*/, const Deadline& /*deadline*/) override { return false; }
+  bool merge(PieceId /*piece*/, const Deadline& /*deadline*/) override {
+    if (how_ == "reuse_id") {
+      Piece piece = *wholePiece(instance(), 1);
+      piece.instance = std::make_shared<const Instance>(
+          Instance::fromVertices(instance().sharedGrid(), instance().goals(), instance().starts()));
+      setTree(PieceTree::leaf(std::make_shared<const Piece>(piece)));
+    }
+    return how_ == "reuse_id" || how_ == "merge_nothing";
+  }
 
  private:
   const std::string how_;
 };
 
 }  // namespace
+
+MisbehavingSolver::MisbehavingSolver() {
+  if (std::getenv(kThrowsWhenLoaded) != nullptr) throw 7;
+}
 
 SolverInfo MisbehavingSolver::info() const {
   SolverInfo info;

@@ -55,6 +55,9 @@ class PluginTest(CommandTest):
                             "solvers", "--solver-plugins", "none.so")
         self.expect_refusal(["solver 'one_by_one' is registered already"],
                             "solvers", "--solver-plugins", EXAMPLE, "--solver-plugins", EXAMPLE)
+        self.environment = {"SPLIT_MAPF_MISBEHAVING_THROWS_WHEN_LOADED": "1"}
+        self.expect_refusal(["threw something that is no std::exception while it was loaded"],
+                            "solvers", "--solver-plugins", MISBEHAVING)
 
 
 if __name__ == "__main__":

@@ -19,6 +19,7 @@ struct Methods {
 
 /// Adds the solver of a plug-in, guarded: whatever it does when it is asked, short of a crash, the
 /// answer is a result that has been checked, half a second after its deadline at the latest.
+/// Once added it is never destroyed, as a call that was given up may use it until the program ends.
 /// @param origin  where it comes from, as messages name it: a file, or a class of a package.
 /// @throws OptionError naming the origin where its name is no name or taken, it was built for
 /// another version, or it throws.

@@ -54,6 +54,8 @@ void PluginLoader::load(const std::vector<std::string>& classes, Methods& method
       throw;
     } catch (const std::exception& error) {
       refuseClass(name, std::string("cannot be loaded: ") + error.what());
+    } catch (...) {
+      refuseClass(name, "cannot be loaded: it threw something that is no std::exception");
     }
   }
 }
