@@ -1,5 +1,7 @@
 #include "targets.h"
 
+#include <cctype>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -42,61 +44,80 @@ std::shared_ptr<const Grid> smallGrid() {
   return std::make_shared<const Grid>(8, 8, free);
 }
 
-void readMapBytes(const std::string& bytes) {
+bool readMapBytes(const std::string& bytes) {
   const MemoryFile file(bytes);
-  isTaken([&] { readMovingAiMap(file.path()); });
+  return isTaken([&] { readMovingAiMap(file.path()); });
 }
 
-void readScenarioBytes(const std::string& bytes) {
+bool readScenarioBytes(const std::string& bytes) {
   static const std::shared_ptr<const Grid> grid = smallGrid();
   const MemoryFile file(bytes);
-  isTaken([&] {
+  return isTaken([&] {
     const Scenario scenario = readMovingAiScenario(file.path(), *grid);
-    isTaken([&] { Instance(grid, scenario.starts, scenario.goals); });
+    Instance(grid, scenario.starts, scenario.goals);
   });
 }
 
-void readMapServerBytes(const std::string& bytes) {
-  const MemoryFile file(bytes);
-  isTaken([&] { readMapServerMap(file.path()); });
+/// The map with the path of a picture in place of the plain name after its first `image: `: a map
+/// in memory stands in no folder of pictures, and what comes behind the name would never be tried.
+std::string withPicture(std::string bytes, const std::string& picture) {
+  const std::string key = "image: ";
+  const std::size_t at = bytes.find(key);
+  if (at == std::string::npos) return bytes;
+  const std::size_t begin = at + key.size();
+  std::size_t end = begin;
+  while (end < bytes.size() && (std::isalnum(static_cast<unsigned char>(bytes[end])) != 0 ||
+                                bytes[end] == '.' || bytes[end] == '_')) {
+    ++end;
+  }
+  if (end > begin) bytes.replace(begin, end - begin, picture);
+  return bytes;
+}
+
+bool readMapServerBytes(const std::string& bytes) {
+  static const MemoryFile picture("P2 2 2 255\n0 255 255 254\n");
+  const MemoryFile file(withPicture(bytes, picture.path()));
+  return isTaken([&] { readMapServerMap(file.path()); });
 }
 
 /// A picture as a map names it, so that the map itself is always right.
-void readPictureBytes(const std::string& bytes) {
+bool readPictureBytes(const std::string& bytes) {
   const MemoryFile picture(bytes);
   const MemoryFile file("image: " + picture.path() +
                         "\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\n"
                         "occupied_thresh: 0.65\nfree_thresh: 0.196\nmode: scale\n");
-  isTaken([&] { readMapServerMap(file.path()); });
+  return isTaken([&] { readMapServerMap(file.path()); });
 }
 
-void readPlanBytes(const std::string& bytes) {
+bool readPlanBytes(const std::string& bytes) {
   static const std::shared_ptr<const Grid> grid = smallGrid();
   static const Instance instance(grid, {{0, 0}, {7, 7}}, {{7, 0}, {0, 7}});
   const MemoryFile file(bytes);
-  isTaken([&] { validate(instance, readPlanJson(file.path())); });
-  isTaken([&] { readPlanLayout(file.path(), *grid); });
-  isTaken([&] { readDiscPlanJson(file.path()); });
+  const bool is_plan = isTaken([&] { validate(instance, readPlanJson(file.path())); });
+  const bool has_layout = isTaken([&] { readPlanLayout(file.path(), *grid); });
+  const bool is_of_discs = isTaken([&] { readDiscPlanJson(file.path()); });
+  return (is_plan && has_layout) || is_of_discs;
 }
 
-void readPoseBytes(const std::string& bytes) {
+bool readPoseBytes(const std::string& bytes) {
   const MemoryFile file(bytes);
-  isTaken([&] { readPoseScenario(file.path()); });
+  return isTaken([&] { readPoseScenario(file.path()); });
 }
 
-void readTaskBytes(const std::string& bytes) {
+bool readTaskBytes(const std::string& bytes) {
   static const std::shared_ptr<const Grid> grid = smallGrid();
   const MemoryFile file(bytes);
-  isTaken([&] { readGoalLists(file.path(), *grid); });
-  isTaken([&] { readLeagueAgents(file.path(), *grid); });
-  isTaken([&] { readLeagueTasks(file.path(), *grid); });
+  const bool is_lists = isTaken([&] { readGoalLists(file.path(), *grid); });
+  const bool is_agents = isTaken([&] { readLeagueAgents(file.path(), *grid); });
+  const bool is_tasks = isTaken([&] { readLeagueTasks(file.path(), *grid); });
+  return is_lists || is_agents || is_tasks;
 }
 
 /// The first line is a specification, each further one an option NAME=VALUE.
-void readSplitBytes(const std::string& bytes) {
+bool readSplitBytes(const std::string& bytes) {
   std::map<std::string, std::string> options;
   std::size_t begin = bytes.find('\n');
-  isTaken([&] { parseSplitSpec(bytes.substr(0, begin)); });
+  bool are_all_taken = isTaken([&] { parseSplitSpec(bytes.substr(0, begin)); });
   while (begin != std::string::npos) {
     const std::size_t end = bytes.find('\n', ++begin);
     const std::string line = bytes.substr(begin, end - begin);
@@ -105,13 +126,14 @@ void readSplitBytes(const std::string& bytes) {
     begin = end;
   }
   for (const Objective objective : {Objective::kMakespan, Objective::kSumOfCosts}) {
-    isTaken([&] { readSplitOptions(options, objective); });
+    if (!isTaken([&] { readSplitOptions(options, objective); })) are_all_taken = false;
   }
+  return are_all_taken;
 }
 
 /// What is taken must come out as it went in.
-void readProblemBytes(const std::string& bytes) {
-  isTaken([&] {
+bool readProblemBytes(const std::string& bytes) {
+  return isTaken([&] {
     const Problem problem = problemFromBytes(bytes);
     const std::string again = toBytes(problem);
     if (toBytes(problemFromBytes(again)) != again) {
@@ -120,9 +142,10 @@ void readProblemBytes(const std::string& bytes) {
   });
 }
 
-void readRobotBytes(const std::string& bytes) {
-  isTaken([&] { parseVda5050State(bytes); });
-  isTaken([&] { parseVda5050Connection(bytes); });
+bool readRobotBytes(const std::string& bytes) {
+  const bool is_state = isTaken([&] { parseVda5050State(bytes); });
+  const bool is_connection = isTaken([&] { parseVda5050Connection(bytes); });
+  return is_state || is_connection;
 }
 
 }  // namespace

@@ -5,9 +5,10 @@
 
 namespace split_mapf::fuzz {
 
-/// Gives bytes of a stranger to a reader. Refusing them by InputError is right; any other exception
-/// goes through, and any fault of memory is the sanitizers' to find.
-using Target = void (*)(const std::string& bytes);
+/// Gives bytes of a stranger to a reader, or to several that read such files; returns whether one
+/// took them. Refusing them by InputError is right; any other exception goes through, and any fault
+/// of memory is the sanitizers' to find.
+using Target = bool (*)(const std::string& bytes);
 
 /// By the name of its folder in fuzz/corpus.
 const std::map<std::string, Target>& targets();

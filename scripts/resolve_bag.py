@@ -3,9 +3,10 @@
 and plan with what was recorded.
 
 The goals go to a planner node that runs, with the options that their results say were used, so that
-its own parameters have no say (but for a seed of 0, empty lists of options, and poses). A result of an
-older version has none: start the node with the parameters of the recording then. A goal without a map
-gets the one that the topic had. The same goal has the same plan at any number of threads, unless the
+its own parameters have no say (but for a seed of 0, empty lists of options, and poses). Results of an
+older version, and of goals that were refused before they were planned, have none: the goal's own are
+sent then; start the node with the parameters of the recording. A goal without a map gets the one that
+the topic had. The same goal has the same plan at any number of threads, unless the
 clock cut the search (a time limit, refine_time) or the planner is another version; a bag with another
 map than the result was planned on is told apart, and so is another version.
 
@@ -100,8 +101,14 @@ def first_step(one, other):
     return min(len(one.cells), len(other.cells))
 
 
+def options_used(recorded):
+    """The options that the goal was planned with, the node's defaults among them; its own where the result
+    tells none."""
+    return recorded.result.statistics.options if used(recorded.result.statistics) else recorded.goal.options
+
+
 def is_cut_by_the_clock(recorded):
-    return (recorded.goal.options.refine_time > 0 or
+    return (options_used(recorded).refine_time > 0 or
             recorded.result.outcome in (PlanOutcome.TIMEOUT, PlanOutcome.CANCELLED))
 
 
@@ -117,7 +124,7 @@ def resolve(fleet, recorded):
     if told:
         print("  recorded by version %(version)s, map %(map_hash)s, seed %(seed)d" % told)
         goal = copy.copy(goal)
-        goal.options = recorded.result.statistics.options
+        goal.options = options_used(recorded)
     sent = fleet.send_goal(goal)
     try:
         answer = sent.wait()

@@ -151,6 +151,34 @@ class Lifecycle(unittest.TestCase):
         self.assertTrue(planner.wait_for_output("stay as they are: solver 'oracle' is unknown"))
         shown = defaults.update_configuration({"time_limit": 1e12, "step_duration": 1e-9})
         self.assertEqual((shown["time_limit"], shown["step_duration"]), (50, 0.5))
+        # Each alone: nothing beside it is at fault, and none may be bent into a value that is taken.
+        for name, value in (("time_limit", -5.0), ("time_limit", 1e12), ("suboptimality", 0.5),
+                            ("seed", -1), ("ignore_specks", -1), ("unknown_space", 7),
+                            ("occupied_threshold", 300)):
+            before = shown[name]
+            shown = defaults.update_configuration({name: value})
+            self.assertEqual(shown[name], before, planner.output())
+            self.assertTrue(planner.wait_for_output(
+                "stay as they are: %s %.6g is out of range" % (name, value)), planner.output())
+
+    def test_the_next_node_starts_with_what_was_reconfigured(self):
+        if importlib.util.find_spec("split_mapf.cfg") is None:
+            self.skipTest("the node was built without dynamic_reconfigure")
+        from dynamic_reconfigure.client import Client  # pylint: disable=import-outside-toplevel
+        rospy.set_param("/split_mapf", {"solver": "ecbs", "solver_options": ["joint=false"],
+                                        "split": "2t", "split_options": ["check=always"]})
+        planner = self.start_ready()
+        defaults = Client("/split_mapf", timeout=60)
+        shown = defaults.update_configuration({"time_limit": 20.0})
+        self.assertEqual(shown["time_limit"], 20)
+        self.assertEqual(rospy.get_param("/split_mapf/solver_options"), ["joint=false"])
+        # Neither takes the options of the other.
+        shown = defaults.update_configuration({"solver": "lacam", "split": "none"})
+        self.assertEqual((shown["solver"], shown["split"]), ("lacam", "none"), planner.output())
+        self.assertEqual(rospy.get_param("/split_mapf/solver_options"), [])
+        self.assertEqual(rospy.get_param("/split_mapf/split_options"), [])
+        planner.end()
+        self.start_ready()
 
     def test_a_speed_alone_derives_the_step_also_in_the_next_node(self):
         self.start_ready().end()

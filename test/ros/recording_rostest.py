@@ -162,13 +162,18 @@ class Recording(unittest.TestCase):
         code, output = self.resolve(self.write_changed(move_a_robot))
         self.assertEqual(code, 2, output)
         self.assertRegex(output, r"[1-4] of 4 robots take another way, the first is 'robot_\d'")
+        self.assertNotIn("the clock had its say", output)
 
         def forget_a_robot(topic, message):
             if topic == ACTION + "goal":
                 del message.goal.robots[3]
+            # By the node's default: the goal itself says nothing.
+            if topic == ACTION + "result":
+                message.result.statistics.options.refine_time = 0.1
         code, output = self.resolve(self.write_changed(forget_a_robot))
         self.assertEqual(code, 2, output)
         self.assertIn("3 robots, recorded 4; of one only: robot_3", output)
+        self.assertIn("the clock had its say", output)
 
         def change_a_cell(topic, message):
             if topic in ("/map", ACTION + "goal"):

@@ -2,7 +2,9 @@
 
 #ifdef SPLIT_MAPF_HAS_RECONFIGURE
 #include <cstdint>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <dynamic_reconfigure/server.h>
 #include <ros/console.h>
@@ -17,10 +19,29 @@ namespace split_mapf {
 
 namespace {
 
+/// Of a value that would be another one where the options keep it. @throws OptionError.
+void requireKept(bool is_kept, const std::string& name, int value, const char* expected) {
+  if (is_kept) return;
+  throw OptionError(name + " " + std::to_string(value) + " is out of range: " + expected +
+                    " is expected");
+}
+
+/// What the options have no way to say, so that nobody could refuse it later.
+void requireKept(const PlannerConfig& config) {
+  requireKept(config.seed >= 0, "seed", config.seed, "0 or more");
+  requireKept(config.ignore_specks >= 0, "ignore_specks", config.ignore_specks, "0 or more");
+  requireKept(config.unknown_space == PlanOptions::UNKNOWN_SPACE_BLOCKED ||
+                  config.unknown_space == PlanOptions::UNKNOWN_SPACE_FREE,
+              "unknown_space", config.unknown_space, "1 (blocked) or 2 (free)");
+}
+
 /// The options with what a configuration says of them; not checked yet.
+/// @throws OptionError for what they cannot hold.
 GoalOptions withConfig(const PlannerConfig& config, GoalOptions options) {
+  requireKept(config);
   PlanRequest& plan = options.plan;
   if (config.solver != plan.solver) plan.solver_options.clear();
+  if (config.split != plan.split) plan.split_options.clear();
   plan.solver = config.solver;
   plan.split = config.split;
   plan.objective = parseObjective(config.objective);
@@ -78,8 +99,8 @@ void leaveStepOpen(const ros::NodeHandle& private_node, GoalDefaults& defaults) 
 }  // namespace
 
 struct Reconfiguration::Server {
-  Server(const ros::NodeHandle& private_node, const Planner& to_ask, GoalDefaults& to_change)
-      : planner(to_ask), defaults(to_change), server(private_node) {
+  Server(const ros::NodeHandle& of_node, const Planner& to_ask, GoalDefaults& to_change)
+      : private_node(of_node), planner(to_ask), defaults(to_change), server(of_node) {
     server.setCallback([this](PlannerConfig& config, std::uint32_t /*level*/) { take(config); });
   }
 
@@ -94,16 +115,27 @@ struct Reconfiguration::Server {
 
   void change(const PlannerConfig& config) {
     try {
+      const PlanRequest before = defaults.get().plan;
       const GoalOptions wanted = withConfig(config, defaults.get());
       requireInRange(wanted);
       planner.requireValid(wanted.plan);
       defaults.set(wanted);
+      forgetList("solver_options", before.solver_options, wanted.plan.solver_options);
+      forgetList("split_options", before.split_options, wanted.plan.split_options);
       ROS_INFO("the defaults of goals are reconfigured");
     } catch (const OptionError& error) {
       ROS_ERROR("the defaults of goals stay as they are: %s", error.what());
     }
   }
 
+  /// dynamic_reconfigure writes `solver` and `split` to the parameter server, but no list: the next
+  /// node would read the options of the solver before, and refuse to start.
+  void forgetList(const std::string& name, const std::vector<std::string>& before,
+                  const std::vector<std::string>& now) {
+    if (!before.empty() && now.empty()) private_node.setParam(name, now);
+  }
+
+  const ros::NodeHandle private_node;
   const Planner& planner;
   GoalDefaults& defaults;
   bool has_begun = false;

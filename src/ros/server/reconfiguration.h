@@ -12,6 +12,8 @@ namespace split_mapf {
 /// Lets the defaults of goals be changed while the node runs, by dynamic_reconfigure (cfg/
 /// Planner.cfg): for the next goal, never for one that is there. What the options themselves would
 /// refuse is refused as a whole, with an error in the log, and the old values are shown again.
+/// Another solver leaves the options of the one before behind, another split those of the split, on
+/// the parameter server too: the next node starts with what holds now.
 /// Without dynamic_reconfigure in the build it does nothing.
 class Reconfiguration {
  public:
