@@ -112,7 +112,7 @@ void driveOnce(const Ground& ground, std::uint64_t seed) {
 }
 
 TEST(DiscExecution, LateRobotsOnPlanningGraphsNeverMeet) {
-  const std::uint64_t grounds = test::draws(12, 100);
+  const std::uint64_t grounds = test::draws(12, 40);
   const std::uint64_t runs = test::draws(10, 100);
   for (std::uint64_t seed = 0; seed < grounds; ++seed) {
     const Ground ground = drawGround(seed);

@@ -96,7 +96,7 @@ bool leavesOnlyTogether(const Team& team) {
 }
 
 TEST(DiscSimulation, LateRobotsArriveAndNeverMeet) {
-  const std::uint64_t buildings = test::draws(4, 60);
+  const std::uint64_t buildings = test::draws(4, 30);
   const std::uint64_t seeds = test::draws(2, 8);
   std::uint32_t runs = 0;
   std::uint32_t refused = 0;

@@ -68,7 +68,7 @@ TEST(FleetCrowd, GoesOnWithoutARobotThatDies) {
   const PlanReport report = planner.plan(instance, request, {});
   ASSERT_TRUE(report.plan) << report.message;
   std::vector<double> took;
-  for (std::uint64_t draw = 0; draw < (is_long ? 20U : 2U); ++draw) {
+  for (std::uint64_t draw = 0; draw < (is_long ? 10U : 2U); ++draw) {
     expectAllOthersArrive(instance, *report.plan, draw, took);
   }
   ASSERT_FALSE(took.empty());

@@ -60,7 +60,7 @@ class Termination(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         rospy.init_node("termination_rostest")
-        cls.rounds = 30 if os.environ.get("SPLIT_MAPF_LONG") == "1" else 6
+        cls.rounds = 16 if os.environ.get("SPLIT_MAPF_LONG") == "1" else 6
         cls.random = random.Random(rospy.get_param("~seed"))
 
     def seconds_to_the_end(self, goals, wait):
