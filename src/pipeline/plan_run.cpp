@@ -188,9 +188,13 @@ Plan PlanRun::join(const Splitter& splitter, RepairLoop::Outcome& outcome) {
                       {passes, executor_.lend(report_.threads), nullptr}, deadline_);
 }
 
+bool PlanRun::isSplitByPlugin() const {
+  return request_.splitter != nullptr && request_.splitter->from_plugin;
+}
+
 void PlanRun::requireJoined(const Plan& plan) const {
   // What this package cuts fits together; accept() looks at it at the end.
-  if (request_.splitter == nullptr || !request_.splitter->from_plugin) return;
+  if (!isSplitByPlugin()) return;
   const std::vector<Violation> violations = validate(instance_, plan, deadline_);
   if (violations.empty()) return;
   throw SplitterFailure(
@@ -207,8 +211,7 @@ void PlanRun::takeVerdict(const SolveResult& result) {
   }
   report_.termination = result.termination;
   report_.message = result.message;
-  const bool is_foreign = request_.splitter != nullptr && request_.splitter->from_plugin;
-  if (is_foreign && report_.solvable && result.termination == Termination::kUnsolvable) {
+  if (isSplitByPlugin() && report_.solvable && result.termination == Termination::kUnsolvable) {
     // A piece has no plan, and its splitter had no other.
     report_.termination = Termination::kNoPlanFound;
     report_.message = "a piece of the split has no plan: " + result.message;

@@ -52,6 +52,7 @@ class PlanRun {
   bool callAnother(const RepairLoop::Outcome& outcome);
   /// Joins the pieces' plans and mends the seams.
   Plan join(const Splitter& splitter, RepairLoop::Outcome& outcome);
+  bool isSplitByPlugin() const;
   /// @throws SplitterFailure where a plug-in's pieces do not fit together.
   void requireJoined(const Plan& plan) const;
   void takeVerdict(const SolveResult& result);

@@ -7,4 +7,15 @@ namespace split_mapf {
 /// A plug-in built for another number is refused when it is loaded.
 constexpr int kPluginInterface = 1;
 
+/// What plug-ins of all kinds have in common.
+class Plugin {
+ public:
+  virtual ~Plugin() = default;
+  /// Which version of the interface it was built for.
+  int builtFor() const { return built_for_; }
+
+ private:
+  const int built_for_ = kPluginInterface;
+};
+
 }  // namespace split_mapf

@@ -12,18 +12,11 @@ namespace split_mapf {
 /// up half a second after its deadline, and what it answers is checked; see docs/plugins.md. It is
 /// asked only where it is named: never by `auto`, as a fallback, or for refinement; and never for
 /// what those need, which are known plans, reserved paths, better plans on the way and threads.
-class SolverPlugin {
+class SolverPlugin : public Plugin {
  public:
-  virtual ~SolverPlugin() = default;
   /// The solver. Called once; this object lives as long as the program. `make` returns at once:
   /// work belongs into Solver::run(). Its errors are OptionError.
   virtual SolverInfo info() const = 0;
-
-  /// Which version of the interface it was built for.
-  int builtFor() const { return built_for_; }
-
- private:
-  const int built_for_ = kPluginInterface;
 };
 
 }  // namespace split_mapf

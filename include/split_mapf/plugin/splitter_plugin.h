@@ -12,18 +12,11 @@ namespace split_mapf {
 /// It is held to the same as a solver, see SolverPlugin: each of its calls has a thread of its own
 /// and half a second after the deadline; its pieces are checked before they are solved, the joined
 /// plan before anything is done to it. Layouts of its own are not shown, and it gets no ways.
-class SplitterPlugin {
+class SplitterPlugin : public Plugin {
  public:
-  virtual ~SplitterPlugin() = default;
   /// The splitter, with `makes` and `uses_ways` left empty. Called once; this object lives as long
   /// as the program. `check` returns at once.
   virtual SplitterInfo info() const = 0;
-
-  /// Which version of the interface it was built for.
-  int builtFor() const { return built_for_; }
-
- private:
-  const int built_for_ = kPluginInterface;
 };
 
 }  // namespace split_mapf
