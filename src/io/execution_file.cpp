@@ -6,6 +6,7 @@
 #include <fstream>
 #include <utility>
 
+#include <boost/algorithm/hex.hpp>
 #include <nlohmann/json.hpp>
 
 #include "split_mapf/core/error.h"
@@ -16,7 +17,6 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kFormat = "split_mapf execution 3";
-constexpr const char* kDigits = "0123456789abcdef";
 
 json toJson(const FleetSnapshot::Robot& robot) {
   json sequences = json::array();
@@ -57,31 +57,13 @@ FleetSnapshot::Robot robotOf(const json& from) {
   return robot;
 }
 
-/// Any bytes as text: two digits each.
-std::string hexOf(const std::string& bytes) {
-  std::string text;
-  text.reserve(2 * bytes.size());
-  for (const char byte : bytes) {
-    const auto value = static_cast<unsigned char>(byte);
-    text.push_back(kDigits[value >> 4U]);
-    text.push_back(kDigits[value & 15U]);
-  }
-  return text;
-}
-
-/// @throws InputError where it is no such text.
+/// Bytes that stand as two digits each. @throws InputError where it is no such text.
 std::string bytesOf(const std::string& hex) {
-  std::string bytes;
-  bytes.reserve(hex.size() / 2);
-  for (std::size_t i = 0; i < hex.size(); i += 2) {
-    const char* const high = std::strchr(kDigits, hex[i]);
-    const char* const low = i + 1 < hex.size() ? std::strchr(kDigits, hex[i + 1]) : nullptr;
-    if (high == nullptr || low == nullptr || *high == '\0' || *low == '\0') {
-      throw InputError("its plan is not written in pairs of hexadecimal digits");
-    }
-    bytes.push_back(static_cast<char>(16 * (high - kDigits) + (low - kDigits)));
+  try {
+    return boost::algorithm::unhex(hex);
+  } catch (const boost::algorithm::hex_decode_error&) {
+    throw InputError("its plan is not written in pairs of hexadecimal digits");
   }
-  return bytes;
 }
 
 json toJson(const FleetSnapshot::Part& part) {
@@ -95,7 +77,7 @@ json toJson(const FleetSnapshot::Part& part) {
   for (const FleetSnapshot::Fault& fault : part.faults) {
     faults.push_back({{"id", fault.id}, {"code", fault.code}, {"message", fault.message}});
   }
-  return {{"plan", hexOf(part.plan)},
+  return {{"plan", boost::algorithm::hex(part.plan)},
           {"number", part.number},
           {"elapsed", part.elapsed_sec},
           {"planned", part.planned_sec},

@@ -85,6 +85,13 @@ TEST_F(ExecutionFile, KeepsThePartOfAPlanOfRobotsThatHaveSize) {
   ASSERT_EQ(read->part->faults.size(), 1U);
   EXPECT_EQ(read->part->faults[0].code, 31);
   EXPECT_EQ(read->part->faults[0].message, "stands");
+
+  // The same file, its plan cut in the middle of a byte.
+  std::string text = contentOf(path);
+  const std::string key = "\"plan\":\"";
+  text.erase(text.find(key) + key.size(), 1);
+  EXPECT_EQ(errorOf([&] { readExecution(file("cut.json", text)); }),
+            "its plan is not written in pairs of hexadecimal digits");
 }
 
 TEST_F(ExecutionFile, NamesWhatIsWrong) {
