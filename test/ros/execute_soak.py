@@ -18,13 +18,13 @@ import sys
 import time
 
 # First: it chooses the master's port.
-from move_soak import OUTCOMES, Soak, cpu_and_memory
+from move_soak import OUTCOMES, Soak, cpu_and_memory, run_to_end
 import actionlib
 import rospy
 from nav_msgs.msg import OccupancyGrid
 
 from fleet_case import make_plan
-from ros_processes import Program, SentGoal, start_program, wait_until
+from ros_processes import SentGoal, start_program, wait_until
 from split_mapf.msg import (ExecutePlanAction, ExecutePlanGoal, MultiRobotPlan, PlanOutcome, RobotPath,
                             RobotState)
 
@@ -78,12 +78,9 @@ class ExecuteSoak(Soak):
         self.start_robots("_delay_probability:=0.0005", "_min_delay:=10", "_max_delay:=30",
                           "_delay_step:=%g" % self.options.step)
         bag = os.path.join(self.directory.name, "run.bag")
-        recorder = self.start(Program("rosbag", "record", "-q", "-O", bag, "-b", "1024",
-                                      "--tcpnodelay", "/progress"))
-        time.sleep(2)
-        self.conduct()
-        recorder.signal(signal.SIGINT)
-        recorder.wait()
+        with self.recording(bag):
+            time.sleep(2)
+            self.conduct()
         self.check(bag)
 
     def conduct(self):
@@ -173,13 +170,7 @@ def main():
     parser.add_argument("--radius", type=float, default=0.35, help="[m] of robots (0.35)")
     parser.add_argument("--seed", type=int, default=1)
     soak = ExecuteSoak(parser.parse_args())
-    try:
-        soak.run()
-    finally:
-        soak.end()
-    for what in soak.wrong[:10]:
-        print("wrong: " + what)
-    return 1 if soak.wrong else 0
+    return run_to_end(soak, soak.run)
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@ exit codes: 0 all is well, 1 something is not (see the last lines)
 """
 
 import argparse
+import contextlib
 import os
 import random
 import signal
@@ -131,6 +132,15 @@ class Soak:
             "fake_robots_node", "routes:=fleet/routes", "_speed:=%g" % (1 / self.options.step),
             "_rate:=10", "_publish_tf:=false", *arguments))
 
+    @contextlib.contextmanager
+    def recording(self, bag):
+        """All that robots report meanwhile is in the bag."""
+        record = os.path.join(os.path.dirname(os.path.abspath(__file__)), "record_progress.py")
+        recorder = self.start(Program(sys.executable, record, bag))
+        yield
+        recorder.signal(signal.SIGINT)
+        self.require(recorder.wait(600) == 0, "the bag was not closed")
+
     def connect(self):
         clients = [PlainClient("client_%d" % i) for i in range(self.options.clients)]
         wait_until(lambda: all(client.is_connected() for client in clients))
@@ -224,12 +234,9 @@ class Soak:
         self.start_robots("_delay_probability:=0.0005", "_min_delay:=10", "_max_delay:=30",
                           "_delay_step:=%g" % self.options.step)
         bag = self.options.bag or os.path.join(self.directory.name, "run.bag")
-        record = os.path.join(os.path.dirname(os.path.abspath(__file__)), "record_progress.py")
-        recorder = self.start(Program(sys.executable, record, bag))
-        clients = self.connect()
-        self.conduct(clients)
-        recorder.signal(signal.SIGINT)
-        self.require(recorder.wait(600) == 0, "the bag was not closed")
+        with self.recording(bag):
+            clients = self.connect()
+            self.conduct(clients)
         wait_until(lambda: not any(client.open() for client in clients), 5)
         self.check(bag)
 
@@ -325,6 +332,17 @@ class Soak:
         self.directory.cleanup()
 
 
+def run_to_end(soak, run):
+    """Runs a part of it, ends its programs and says what was wrong. @return the exit code."""
+    try:
+        run()
+    finally:
+        soak.end()
+    for what in soak.wrong[:10]:
+        print("wrong: " + what)
+    return 1 if soak.wrong else 0
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -343,13 +361,7 @@ def main():
     parser.add_argument("--bag", help="hour: where to keep the bag (it is thrown away)")
     parser.add_argument("--seed", type=int, default=1)
     soak = Soak(parser.parse_args())
-    try:
-        getattr(soak, soak.options.mode)()
-    finally:
-        soak.end()
-    for what in soak.wrong[:10]:
-        print("wrong: " + what)
-    return 1 if soak.wrong else 0
+    return run_to_end(soak, getattr(soak, soak.options.mode))
 
 
 if __name__ == "__main__":
