@@ -5,6 +5,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
 
@@ -17,10 +19,8 @@ std::string OptionValues::choice(const std::string& name, const std::string& fal
   if (std::find(choices.begin(), choices.end(), found->second) != choices.end()) {
     return found->second;
   }
-  std::string expected;
-  for (const std::string& choice : choices) expected += (expected.empty() ? "" : ", ") + choice;
   throw OptionError("option " + name + "=" + shown(found->second) + ": expected one of " +
-                    expected);
+                    boost::algorithm::join(choices, ", "));
 }
 
 std::uint64_t OptionValues::count(const std::string& name, std::uint64_t fallback) const {

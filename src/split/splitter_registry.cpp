@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
 #include "split_mapf/split/space_splitter.h"
@@ -16,12 +18,6 @@ namespace {
 bool offers(const std::vector<OptionInfo>& options, const std::string& name) {
   return std::any_of(options.begin(), options.end(),
                      [&](const OptionInfo& option) { return option.name == name; });
-}
-
-std::string join(const std::set<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
 }
 
 bool isInNotation(const std::string& word) {
@@ -66,7 +62,8 @@ void SplitterRegistry::requireKnown(const std::string& option) const {
     for (const OptionInfo& own : entry.second.options) known.insert(own.name);
   }
   if (known.count(option) > 0) return;
-  throw OptionError("split option " + quote(option) + " is unknown; there are: " + join(known));
+  throw OptionError("split option " + quote(option) +
+                    " is unknown; there are: " + boost::algorithm::join(known, ", "));
 }
 
 void SplitterRegistry::requireOffered(const SplitRequest& request,
@@ -84,8 +81,8 @@ void SplitterRegistry::requireOffered(const SplitRequest& request,
       if (offers(info.options, entry.first)) owners.insert(name);
     }
     throw OptionError("split option " + quote(entry.first) + " is for splits made by " +
-                      join(owners) + ", but split " + quote(request.text) + " is made by " +
-                      splitter->name);
+                      boost::algorithm::join(owners, ", ") + ", but split " + quote(request.text) +
+                      " is made by " + splitter->name);
   }
 }
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <system_error>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/wording.h"
@@ -77,12 +79,6 @@ Termination meaningOf(const AttachmentError& error) {
     cut_off = cut_off || isCutOff(fault);
   }
   return cut_off ? Termination::kUnsolvable : Termination::kNoPlanFound;
-}
-
-std::string joined(const std::vector<std::string>& messages) {
-  std::string text;
-  for (const std::string& message : messages) text += (text.empty() ? "" : "; ") + message;
-  return text;
 }
 
 /// One planning call with what has to live through it.
@@ -174,7 +170,8 @@ class PlanCall {
       roadmap_sec_ = taken.count();
       return std::nullopt;
     } catch (const AttachmentError& error) {
-      return endedBefore(request, robots, meaningOf(error), joined(error.messages()));
+      return endedBefore(request, robots, meaningOf(error),
+                         boost::algorithm::join(error.messages(), "; "));
     } catch (const Interrupted&) {
       const bool cancelled = deadline.stopRequested();
       return endedBefore(request, robots,

@@ -1,8 +1,10 @@
 #include "ros/server/plugin_loader.h"
 
 #include <exception>
+#include <utility>
 
 #ifdef SPLIT_MAPF_HAS_PLUGINLIB
+#include <boost/algorithm/string/join.hpp>
 #include <pluginlib/class_loader.hpp>
 #endif
 
@@ -25,12 +27,9 @@ struct PluginLoader::Loaders {
   pluginlib::ClassLoader<SplitterPlugin> splitters{"split_mapf", "split_mapf::SplitterPlugin"};
 
   std::string names() {
-    std::string text;
-    for (const std::vector<std::string>& some :
-         {solvers.getDeclaredClasses(), splitters.getDeclaredClasses()}) {
-      for (const std::string& name : some) text += (text.empty() ? "" : ", ") + name;
-    }
-    return text.empty() ? "no package has any" : "there are: " + text;
+    std::vector<std::string> all = solvers.getDeclaredClasses();
+    for (std::string& name : splitters.getDeclaredClasses()) all.push_back(std::move(name));
+    return all.empty() ? "no package has any" : "there are: " + boost::algorithm::join(all, ", ");
   }
 };
 

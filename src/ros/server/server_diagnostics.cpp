@@ -1,22 +1,12 @@
 #include "ros/server/server_diagnostics.h"
 
-#include <deque>
-#include <string>
+#include <boost/algorithm/string/join.hpp>
 
 #include "core/resident_memory.h"
 #include "split_mapf/plugin/methods.h"
 #include "split_mapf/ros/outcome.h"
 
 namespace split_mapf {
-namespace {
-
-std::string listed(const std::deque<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
-}  // namespace
 
 ServerDiagnostics::ServerDiagnostics(const ros::NodeHandle& node,
                                      const ros::NodeHandle& private_node, const PlanServer& server,
@@ -51,7 +41,7 @@ void ServerDiagnostics::fill(diagnostic_updater::DiagnosticStatusWrapper& status
   status.add("plug-in searches that do not stop", abandonedCalls());
   status.add("last outcome", now.last_outcome);
   status.add("last message", now.last_message);
-  status.add("last outcomes", listed(now.outcomes));
+  status.add("last outcomes", boost::algorithm::join(now.outcomes, ", "));
   status.addf("last runtime [s]", "%.3f", now.last_runtime_sec);
   status.addf("memory [MiB]", "%.1f", residentMemoryMib());
 }
