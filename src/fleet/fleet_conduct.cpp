@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "fleet/standing_times.h"
+#include "core/standing_times.h"
 #include "split_mapf/core/promises.h"
 #include "split_mapf/core/wording.h"
 #include "split_mapf/fleet/fleet_execution.h"

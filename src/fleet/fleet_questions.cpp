@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "fleet/standing_times.h"
+#include "core/standing_times.h"
 #include "split_mapf/core/promises.h"
 #include "split_mapf/fleet/fleet_execution.h"
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fleet/standing_times.h"
+#include "core/standing_times.h"
 #include "fleet/ticked_execution.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/execution_graph.h"

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "pipeline/goal_source.h"
+#include "pipeline/late_robots.h"
 #include "split_mapf/core/distance_table.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/fleet_check.h"
@@ -45,6 +46,7 @@ class RollRun {
         planner_(grid, options.rolling),
         checker_(grid),
         source_(*grid, task, options.rolling.seed),
+        late_(options.delays, static_cast<std::uint32_t>(task.starts.size()), grid->size()),
         since_(task.starts.size(), 0) {
     report_.reached.resize(task.starts.size());
     for (std::uint32_t robot = 0; robot < task.starts.size(); ++robot) {
@@ -99,22 +101,32 @@ class RollRun {
     now_.clear();
     for (const RollingRobot& robot : question_.robots) before_.push_back(robot.prefix.front());
     for (const Path& path : answer.paths) now_.push_back(path.at(1));
+    late_.nextStep();
+    late_.hold(before_, now_);
     const std::optional<std::string> wrong = checker_.violation(before_, now_);
     if (wrong) throw std::logic_error("step " + std::to_string(t) + " is not valid: " + *wrong);
     for (std::uint32_t robot = 0; robot < question_.robots.size(); ++robot) {
       RollingRobot& entry = question_.robots[robot];
       count(robot, t);
       entry.known = std::move(answer.paths[robot]);
-      entry.known.erase(entry.known.begin());
-      entry.prefix.front() = entry.known.front();
-      report_.paths[robot].push_back(entry.prefix.front());
+      if (entry.known[1] == now_[robot]) entry.known.erase(entry.known.begin());
+      entry.prefix.assign(1 + standing(robot), now_[robot]);
+      report_.paths[robot].push_back(now_[robot]);
       passGoals(robot, t);
       entry.age = t - since_[robot];
     }
   }
 
+  /// Steps for which the robot is expected to stand on.
+  std::uint32_t standing(std::uint32_t robot) const {
+    const std::uint32_t expected = late_.expected(robot);
+    return expected == 0 ? 0 : std::min(expected - 1, options_.rolling.window);
+  }
+
   void count(std::uint32_t robot, std::uint32_t t) {
-    if (t <= options_.warmup || question_.robots[robot].goals.empty()) return;
+    if (t <= options_.warmup) return;
+    delayed_steps_ += late_.isDelayed(robot) ? 1 : 0;
+    if (question_.robots[robot].goals.empty()) return;
     ++busy_steps_;
     standing_ += before_[robot] == now_[robot] ? 1 : 0;
   }
@@ -152,6 +164,11 @@ class RollRun {
     if (report_.steps > 1) report_.step_cpu_ms_mean = cpu_ms_ / (report_.steps - 1);
     if (busy_steps_ > 0) {
       report_.waiting = static_cast<double>(standing_) / static_cast<double>(busy_steps_);
+    }
+    if (report_.steps > options_.warmup) {
+      const double all = static_cast<double>(report_.steps - options_.warmup) *
+                         static_cast<double>(question_.robots.size());
+      report_.delayed = static_cast<double>(delayed_steps_) / all;
     }
     countTurns();
     report_.goals_reached = service_.size();
@@ -223,6 +240,7 @@ class RollRun {
   Rolling planner_;
   FleetChecker checker_;
   GoalSource source_;
+  LateRobots late_;
   RollingQuestion question_;
   RollReport report_;
   std::vector<std::uint32_t> since_;  // by robot: the step of its last goal
@@ -231,6 +249,7 @@ class RollRun {
   std::vector<std::uint32_t> service_;
   std::uint64_t busy_steps_ = 0;
   std::uint64_t standing_ = 0;
+  std::uint64_t delayed_steps_ = 0;
   double cpu_ms_ = 0;
 };
 

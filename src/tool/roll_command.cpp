@@ -20,6 +20,7 @@
 #include "split_mapf/pipeline/roll.h"
 #include "tool/command_line.h"
 #include "tool/commands.h"
+#include "tool/delay_options.h"
 #include "tool/files.h"
 #include "tool/league_result.h"
 #include "tool/roll_output.h"
@@ -51,6 +52,7 @@ void declareOptions(CommandLine& line) {
   line.offer("step-time", "SECONDS", "effort a step in CPU time of each thread, instead");
   line.offer("known-goals", "N",
              "of each robot that are planned for (" + std::to_string(defaults.known_goals) + ")");
+  declareDelays(line);
   line.offer("threads", "N", "worker threads (hardware concurrency)");
   line.offer("cache", "MiB",
              "for distances by goal (" + std::to_string(defaults.rolling.cache_bytes >> 20U) + ")");
@@ -82,6 +84,7 @@ RollOptions readOptions(const CommandLine& line) {
   options.step_expansions =
       line.wholeNumber("step-expansions", options.step_expansions, 0, kMost64);
   options.step_sec = line.number("step-time", 0, 0);
+  options.delays = readDelays(line, rolling.seed);
   if (line.has("step-time") && line.has("step-expansions")) {
     throw OptionError("options --step-time and --step-expansions exclude each other");
   }
@@ -166,7 +169,7 @@ void printSummary(const RollReport& report, const RollOptions& options) {
             << "service " << report.service_mean << " steps in the mean, " << report.service_median
             << " median, " << report.service_p99 << " 99 %, " << report.service_max
             << " at most; the longest wait for a goal " << report.longest_wait << "; standing "
-            << 100 * report.waiting << " % of the time\n"
+            << 100 * report.waiting << " % of the time, delayed " << 100 * report.delayed << " %\n"
             << std::setprecision(2) << report.step_cpu_ms_mean << " ms of CPU a step, "
             << report.step_cpu_ms_max << " at most; a valid step after " << report.valid_ms_max
             << " at most; the first step " << report.first_step_ms << "\n";

@@ -50,6 +50,7 @@ void writeRollJson(std::ostream& out, const Grid& grid, const RollOptions& optio
                           {"max", report.service_max}});
   field("longest_wait", report.longest_wait);
   field("waiting", report.waiting);
+  field("delayed", report.delayed);
   field("turns", report.turns);
   field("step_cpu_ms", {{"mean", report.step_cpu_ms_mean}, {"max", report.step_cpu_ms_max}});
   field("valid_step_ms", {{"max", report.valid_ms_max}});

@@ -12,6 +12,7 @@
 #include "split_mapf/io/pose_scenario.h"
 #include "tool/command_line.h"
 #include "tool/commands.h"
+#include "tool/delay_options.h"
 #include "tool/disc_plan.h"
 #include "tool/files.h"
 #include "tool/league_result.h"
@@ -28,7 +29,6 @@ constexpr std::uint64_t kMost64 = std::numeric_limits<std::uint64_t>::max();
 
 void declareOptions(CommandLine& line) {
   const SimulationOptions defaults;
-  const DelayModel& delays = defaults.delays;
   line.require("map", "FILE", "MovingAI .map, or map_server .yaml");
   line.require("scen", "FILE", "MovingAI .scen, or .yaml with poses of robots");
   line.require("plan", "FILE", "JSON with `paths`, as `plan --output` writes it");
@@ -37,14 +37,7 @@ void declareOptions(CommandLine& line) {
       "lockstep (a step begins when all have ended the one before), graph (as soon as the "
       "order of the visits allows) or replan (likewise, the rest replanned again and again) (" +
           toString(defaults.policy) + ")");
-  line.offer("delay-probability", "P", "of a robot that is not delayed, a step, 0 to 1 (0)");
-  line.offer("min-delay", "STEPS", "least length of a delay (1)");
-  line.offer("max-delay", "STEPS", "greatest length of a delay (the least)");
-  line.offer("delay-process", "NAME",
-             "bernoulli (each robot by itself) or poisson (a number of the team) (" +
-                 toString(delays.process) + ")");
-  line.offer("delay-distribution", "NAME",
-             "uniform or gaussian lengths (" + toString(delays.distribution) + ")");
+  declareDelays(line);
   line.offer("seed", "N", "all randomness (0)");
   line.offer("turn-time", "STEPS", "of a quarter turn in place (0)");
   declareRobotOptions(line);
@@ -78,17 +71,8 @@ bool readAvoidRings(const CommandLine& line) {
 SimulationOptions readOptions(const CommandLine& line) {
   SimulationOptions options;
   if (line.has("policy")) options.policy = parseExecutionPolicy(line.text("policy"));
-  DelayModel& delays = options.delays;
-  delays.probability = line.number("delay-probability", 0, 0);
-  delays.min_delay = static_cast<std::uint32_t>(line.wholeNumber("min-delay", 1, 1, kMost32 / 2));
-  delays.max_delay =
-      static_cast<std::uint32_t>(line.wholeNumber("max-delay", delays.min_delay, 1, kMost32 / 2));
-  if (line.has("delay-process")) delays.process = parseDelayProcess(line.text("delay-process"));
-  if (line.has("delay-distribution")) {
-    delays.distribution = parseDelayDistribution(line.text("delay-distribution"));
-  }
-  delays.seed = line.wholeNumber("seed", 0, 0, kMost64);
-  options.budget.seed = delays.seed;
+  options.budget.seed = line.wholeNumber("seed", 0, 0, kMost64);
+  options.delays = readDelays(line, options.budget.seed);
   options.budget.expansions = line.wholeNumber("replan-expansions", 0, 1, kMost64);
   options.turn_time = line.number("turn-time", 0, 0);
   options.release = line.number("release", 0, 0);

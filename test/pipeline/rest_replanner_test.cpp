@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fleet/standing_times.h"
+#include "core/standing_times.h"
 #include "search/departures.h"
 #include "search/neighbourhood_search.h"
 #include "search/replan_singly.h"

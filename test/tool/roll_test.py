@@ -63,6 +63,15 @@ class RollTest(CommandTest):
         self.assertEqual(len(result["paths"]), 7)
         self.require_sound(result)
 
+    def test_robots_that_are_late(self):
+        options = ("--agents", 40, "--steps", 80, "--warmup", 0, "--step-expansions", 3000)
+        late = self.roll(*options, "--delay-probability", 0.05, "--min-delay", 2, "--max-delay", 6)
+        self.require_sound(late)
+        self.assertAlmostEqual(late["delayed"], 4 / 24, delta=0.06)
+        prompt = self.roll(*options)
+        self.assertEqual(prompt["delayed"], 0)
+        self.assertLess(late["goals_reached"], prompt["goals_reached"])
+
     def test_lists_of_goals(self):
         self.write_problem("p", ["......", "......"], [((0, 0), (5, 0))])
         self.write("t.yaml", "robots:\n- {start: [0, 0], goals: [[5, 0], [0, 1]]}\n"
@@ -105,6 +114,8 @@ class RollTest(CommandTest):
         self.refuse("--window", "--agents", 2, "--window", 32)
         self.refuse("exclude", "--agents", 2, "--step-time", 1, "--step-expansions", 1)
         self.refuse("warmup", "--agents", 2, "--steps", 10, "--warmup", 10)
+        self.refuse("0 to 1", "--agents", 2, "--delay-probability", 1.5)
+        self.refuse("below the least", "--agents", 2, "--min-delay", 3, "--max-delay", 2)
         self.refuse("lorr", "--agents", 2, "--export", "planviz", "--output", "x.json")
         self.refuse("starts of its own", "--tasks", "t.yaml", "--starts", "p.scen")
 

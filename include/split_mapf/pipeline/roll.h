@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "split_mapf/core/deadline.h"
+#include "split_mapf/core/delays.h"
 #include "split_mapf/core/grid.h"
 #include "split_mapf/core/plan.h"
 #include "split_mapf/pipeline/rolling.h"
@@ -29,6 +30,9 @@ struct RollOptions {
   /// time [s] of each thread, from the moment the goals are known.
   std::uint64_t step_expansions = 100000;
   double step_sec = 0;
+  /// Robots that stand in a step that would have moved them, and with them whoever would come where
+  /// they are. The planner learns of a delay when it has begun, and how long others were.
+  DelayModel delays;
 };
 
 /// One goal, as it was reached.
@@ -52,6 +56,7 @@ struct RollReport {
   /// [steps] the longest that any robot with a goal was without reaching one, to the end.
   std::uint32_t longest_wait = 0;
   double waiting = 0;  ///< share of the steps of robots with goals in which they stood
+  double delayed = 0;  ///< share of the robots' time in which they were delayed
   double turns = 0;    ///< turns a move
   double step_cpu_ms_mean = 0;
   double step_cpu_ms_max = 0;

@@ -1,4 +1,4 @@
-#include "fleet/standing_times.h"
+#include "core/standing_times.h"
 
 #include <algorithm>
 

@@ -16,6 +16,7 @@ class StandingTimes {
   /// Steps, this one included, for which the robot is expected to stand; 0: it does not.
   std::uint32_t expected(std::uint32_t robot) const;
   std::uint32_t stood(std::uint32_t robot) const { return stood_[robot]; }
+  std::uint32_t robots() const { return static_cast<std::uint32_t>(stood_.size()); }
 
  private:
   std::vector<std::uint32_t> stood_;   // by robot: steps of its delay so far, this one included
