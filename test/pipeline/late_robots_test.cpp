@@ -119,9 +119,7 @@ TEST(LateRobots, ARunWithThemIsValidAndTheSameAtAnyNumberOfThreads) {
   EXPECT_GT(one.throughput, 0.6 * none.throughput) << "a tenth of the time is lost, and some more";
 }
 
-TEST(LateRobots, RefuseAModelThatIsOutOfRange) {
-  EXPECT_THROW(rollLate(1, 1.5), OptionError);
-}
+TEST(LateRobots, RefuseAModelThatIsOutOfRange) { EXPECT_THROW(rollLate(1, 1.5), OptionError); }
 
 }  // namespace
 }  // namespace split_mapf

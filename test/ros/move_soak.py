@@ -7,13 +7,15 @@ tests that run each time: it takes minutes, and its figures depend on the machin
                        long until each robot moves. Then 10,000 goals at once.
   move_soak.py hour    robots always have goals; some are late, some die, aisles are blocked, the node is
                        killed and starts again. Every goal ends, or was lost with the node; places are
-                       checked from a bag.
+                       checked from a bag. Goals a step are compared with those of `split_mapf roll`
+                       on the same map, with the same delays.
 
 exit codes: 0 all is well, 1 something is not (see the last lines)
 """
 
 import argparse
 import contextlib
+import json
 import os
 import random
 import signal
@@ -35,11 +37,15 @@ import roslib.packages  # noqa: E402
 import rospy  # noqa: E402
 from nav_msgs.msg import OccupancyGrid  # noqa: E402
 
-from fleet_case import make_plan  # noqa: E402
+from fleet_case import command, make_plan  # noqa: E402
 from move_clients import PlainClient, free_cells, goal_of, task  # noqa: E402
 from ros_processes import Program, start_program, wait_until  # noqa: E402
 from split_mapf.msg import FleetState, MultiRobotPlan, PlanOutcome, RobotPath  # noqa: E402
 from split_mapf.srv import BlockCells  # noqa: E402
+
+# How robots are late: the chance of one that is not, a step, and for how long [steps].
+DELAY_PROBABILITY, DELAYS = 0.0005, (10, 30)
+LEAST_SHARE_OF_ROLL = 0.85
 
 OUTCOMES = {value: name for name, value in vars(PlanOutcome).items()
             if name.isupper() and isinstance(value, int)}
@@ -231,8 +237,8 @@ class Soak:
                   for robot in self.draw.sample(range(self.options.robots), self.options.deaths)]
         rospy.set_param("/fake_robots/failures", deaths)
         self.start_fleet()
-        self.start_robots("_delay_probability:=0.0005", "_min_delay:=10", "_max_delay:=30",
-                          "_delay_step:=%g" % self.options.step)
+        self.start_robots("_delay_probability:=%g" % DELAY_PROBABILITY, "_min_delay:=%d" % DELAYS[0],
+                          "_max_delay:=%d" % DELAYS[1], "_delay_step:=%g" % self.options.step)
         bag = self.options.bag or os.path.join(self.directory.name, "run.bag")
         with self.recording(bag):
             clients = self.connect()
@@ -312,11 +318,26 @@ class Soak:
               (seconds, self.options.robots, self.options.deaths, events, self.options.restarts))
         print("%d goals: %s, lost with the node %d, open %d" %
               (sent, ends, lost, sum(len(client.open()) for client in clients)))
-        print("goals a step: %.2f" % (arrived * self.options.step / seconds))
+        self.compare(arrived * self.options.step / seconds)
         cpu, _ = cpu_and_memory(self.fleet.process.pid)
         print("memory [MiB]: %s; CPU of the last node %.1f s" %
               (" ".join("%.0f" % value for value in memory[::max(1, len(memory) // 12)]), cpu))
         self.require(arrived > 0, "nobody arrived")
+
+    def compare(self, throughput):
+        """With what `roll` reaches where nobody dies and no aisle is blocked; a client that gives one
+        goal after the other is known_goals = 1."""
+        result = os.path.join(self.directory.name, "roll.json")
+        subprocess.run([command(), "roll", "--map", os.path.join(self.directory.name, "fleet.map"),
+                        "--agents", str(self.options.robots), "--known-goals", "1",
+                        "--delay-probability", str(DELAY_PROBABILITY), "--min-delay",
+                        str(DELAYS[0]), "--max-delay", str(DELAYS[1]), "--seed",
+                        str(self.options.seed), "--output", result, "--quiet"], check=True)
+        with open(result, encoding="ascii") as file:
+            rolled = json.load(file)["throughput"]
+        share = throughput / rolled
+        print("goals a step: %.2f, %.0f %% of the %.2f of roll" % (throughput, 100 * share, rolled))
+        self.require(share >= LEAST_SHARE_OF_ROLL, "fewer goals a step than roll reaches")
 
     def check(self, bag):
         script = roslib.packages.find_node("split_mapf", "check_distances.py")[0]
