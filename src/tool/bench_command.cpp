@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <ctime>
-#include <fstream>
 #include <iostream>
+#include <set>
 #include <sstream>
+
+#include <boost/algorithm/string/join.hpp>
 
 #include "solver/available/available_solvers.h"
 #include "split_mapf/core/error.h"
@@ -15,209 +18,182 @@
 #include "tool/commands.h"
 #include "tool/files.h"
 #include "tool/stop_signals.h"
+#include "tool/sweep.h"
+#include "tool/sweep_table.h"
 
 namespace split_mapf::tool {
 namespace {
 
-/// The words of a list with commas. @throws OptionError for an empty word.
-std::vector<std::string> wordsOf(const std::string& option, const std::string& text) {
-  std::vector<std::string> words;
-  std::stringstream stream(text);
-  for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
-  if (words.empty() || text.back() == ',') words.emplace_back();
-  for (const std::string& word : words) {
-    if (word.empty()) {
-      throw OptionError("option --" + option + ": an empty name in the list " + quote(text));
-    }
-  }
-  return words;
+const SweepTable::Shape& shapeOfTable() {
+  static const SweepTable::Shape shape{{"map",
+                                        "scen",
+                                        "agents",
+                                        "objective",
+                                        "solver",
+                                        "split",
+                                        "threads",
+                                        "time_limit",
+                                        "refine",
+                                        "suboptimality",
+                                        "seed",
+                                        "status",
+                                        "seconds",
+                                        "cpu_seconds",
+                                        "first_plan_s",
+                                        "makespan",
+                                        "makespan_lower_bound",
+                                        "sum_of_costs",
+                                        "sum_of_costs_lower_bound",
+                                        "optimal",
+                                        "cells",
+                                        "conflicting",
+                                        "largest_group",
+                                        "head_on"},
+                                       11};
+  return shape;
 }
 
-std::vector<std::uint32_t> countsOf(const std::string& option, const std::string& text) {
-  std::vector<std::uint32_t> counts;
-  for (const std::string& word : wordsOf(option, text)) {
-    const bool digits = word.find_first_not_of("0123456789") == std::string::npos;
-    const unsigned long count = digits && word.size() < 10 ? std::stoul(word) : 0;
-    if (count == 0) {
-      throw OptionError("option --" + option + ": " + quote(word) +
-                        " is no whole number of at least 1");
-    }
-    counts.push_back(static_cast<std::uint32_t>(count));
-  }
-  return counts;
-}
-
-/// What is measured: every combination.
-struct Sweep {
-  std::vector<std::string> maps;
-  std::vector<std::string> scenarios;
-  std::vector<std::uint32_t> agents;
-  std::vector<std::string> solvers;
-  std::vector<std::string> splits;
-  PlanRequest request;
-};
-
-/// Split specifications hold commas inside their brackets.
-std::vector<std::string> splitsOf(const std::string& text) {
-  std::vector<std::string> splits;
-  bool inside = false;
-  for (const std::string& word : wordsOf("splits", text)) {
-    if (inside) {
-      splits.back() += "," + word;
-    } else {
-      splits.push_back(word);
-    }
-    if (word.find('(') != std::string::npos) inside = true;
-    if (word.find(')') != std::string::npos) inside = false;
-  }
-  return splits;
-}
-
-Sweep readSweep(const CommandLine& line) {
-  Sweep sweep;
-  sweep.maps = line.texts("map");
-  sweep.scenarios = line.texts("scen");
-  if (sweep.maps.empty() || sweep.scenarios.empty()) {
-    throw OptionError("at least one --map and one --scen are needed");
-  }
-  if (sweep.maps.size() == 1) sweep.maps.resize(sweep.scenarios.size(), sweep.maps.front());
-  if (sweep.maps.size() != sweep.scenarios.size()) {
-    throw OptionError(counted(sweep.maps.size(), "map") + " for " +
-                      counted(sweep.scenarios.size(), "scenario") +
-                      ": one map, or one for each scenario, is expected");
-  }
-  sweep.agents = countsOf("agents", line.text("agents"));
-  sweep.solvers = wordsOf("solvers", line.text("solvers", "auto"));
-  sweep.splits = splitsOf(line.text("splits", "none"));
-  PlanRequest& request = sweep.request;
-  if (line.has("objective")) request.objective = parseObjective(line.text("objective"));
-  request.suboptimality = line.number("suboptimality", request.suboptimality, 1);
-  request.time_limit_sec = line.number("time-limit", request.time_limit_sec, 0);
-  request.refine_sec = line.number("refine", request.refine_sec, 0);
-  request.threads = static_cast<std::uint32_t>(line.wholeNumber("threads", 1, 1, 1024));
-  request.seed = line.wholeNumber("seed", request.seed, 0, ~std::uint64_t{0});
-  return sweep;
-}
-
-void writeHeader(std::ostream& out) {
-  out << "map,scen,agents,objective,solver,split,threads,status,seconds,cpu_seconds,first_plan_s,"
-         "makespan,makespan_lower_bound,sum_of_costs,sum_of_costs_lower_bound,optimal,cells,"
-         "conflicting,largest_group,head_on\n";
-}
-
-/// A field of a CSV file (RFC 4180).
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + '"';
+/// As streams write it.
+template <typename Number>
+std::string textOf(Number number) {
+  std::ostringstream stream;
+  stream << number;
+  return stream.str();
 }
 
 class Bench {
  public:
-  Bench(Sweep sweep, std::ostream& out)
+  explicit Bench(Sweep sweep)
       : sweep_(std::move(sweep)),
-        out_(out),
+        cells_(cellsOf(sweep_)),
         stop_(catchStopSignals()),
         executor_(sweep_.request.threads),
-        planner_(availableSolvers(), executor_) {}
-
-  ExitCode run() {
+        planner_(availableSolvers(), executor_) {
     requireValid();
-    writeHeader(out_);
-    for (std::size_t i = 0; i < sweep_.maps.size(); ++i) {
-      const std::shared_ptr<const Grid> grid = readMap(sweep_.maps[i]);
-      for (const std::uint32_t agents : sweep_.agents) {
-        const Scenario scenario = readMovingAiScenario(sweep_.scenarios[i], *grid, agents);
-        for (const std::string& solver : sweep_.solvers) {
-          for (const std::string& split : sweep_.splits) {
-            if (stop_->requested()) return ExitCode::kCancelled;
-            measure(i, grid, scenario, solver, split);
-          }
-        }
-      }
+  }
+
+  /// Measures the cells of the shard that the table has no row of.
+  ExitCode run(SweepTable& table) {
+    std::vector<std::size_t> mine = shardOf(sweep_, cells_.size());
+    if (!table.rowsFromBefore().empty()) leaveOut(table.rowsFromBefore(), mine);
+    for (const std::size_t i : mine) {
+      const SweepCell& cell = cells_[i];
+      read(cell);
+      if (stop_->requested()) return ExitCode::kCancelled;
+      const std::vector<std::string> row = measure(cell);
+      // What was cut short tells nothing; who resumes measures it again.
+      if (stop_->requested()) return ExitCode::kCancelled;
+      table.add(row);
     }
     return ExitCode::kOk;
   }
 
  private:
-  /// Everything is checked before anything is run.
-  void requireValid() {
-    for (const std::string& solver : sweep_.solvers) {
-      for (const std::string& split : sweep_.splits) {
-        sweep_.request.solver = solver;
-        sweep_.request.split = split;
-        planner_.requireValid(sweep_.request);
-      }
-    }
+  PlanRequest requestFor(const SweepCell& cell) const {
+    PlanRequest request = sweep_.request;
+    request.solver = cell.solver;
+    request.split = cell.split;
+    return request;
   }
 
-  void measure(std::size_t i, const std::shared_ptr<const Grid>& grid, const Scenario& scenario,
-               const std::string& solver, const std::string& split) {
+  /// Everything is checked before anything is run.
+  void requireValid() const {
+    for (const SweepCell& cell : cells_) planner_.requireValid(requestFor(cell));
+  }
+
+  SweepTable::Key keyOf(const SweepCell& cell) const {
+    const PlanRequest& request = sweep_.request;
+    return {sweep_.maps[cell.scenario],
+            sweep_.scenarios[cell.scenario],
+            textOf(cell.agents),
+            toString(request.objective),
+            cell.solver,
+            cell.split,
+            textOf(request.threads),
+            textOf(request.time_limit_sec),
+            textOf(request.refine_sec),
+            textOf(request.suboptimality),
+            textOf(request.seed)};
+  }
+
+  /// @throws InputError for a row that is of no cell.
+  void leaveOut(const std::set<SweepTable::Key>& rows, std::vector<std::size_t>& mine) const {
+    std::set<SweepTable::Key> foreign = rows;
+    for (const SweepCell& cell : cells_) foreign.erase(keyOf(cell));
+    if (!foreign.empty()) {
+      throw InputError("the table has a row of " + boost::algorithm::join(*foreign.begin(), ", ") +
+                       ", which this sweep has not; --resume needs the options that the table was "
+                       "begun with");
+    }
+    const auto is_there = [&](std::size_t i) { return rows.count(keyOf(cells_[i])) > 0; };
+    mine.erase(std::remove_if(mine.begin(), mine.end(), is_there), mine.end());
+    std::cerr << "split_mapf: " << counted(rows.size(), "row") << " from before, "
+              << counted(mine.size(), "combination") << " left\n";
+  }
+
+  /// Reads what the cell before had not.
+  void read(const SweepCell& cell) {
+    const bool same_map = grid_ && cell.scenario == read_.scenario;
+    if (same_map && cell.agents == read_.agents) return;
+    if (!same_map) grid_ = readMap(sweep_.maps[cell.scenario]);
+    scenario_ = readMovingAiScenario(sweep_.scenarios[cell.scenario], *grid_, cell.agents);
+    read_ = cell;
+  }
+
+  std::vector<std::string> measure(const SweepCell& cell) {
     // A fresh instance: its distance tables are part of what is measured.
-    const Instance instance(grid, scenario.starts, scenario.goals);
-    PlanRequest request = sweep_.request;
-    request.solver = solver;
-    request.split = split;
+    const Instance instance(grid_, scenario_.starts, scenario_.goals);
+    const PlanRequest request = requestFor(cell);
     const Deadline deadline(request.time_limit_sec, stop_);
     const std::clock_t cpu_begin = std::clock();
     const PlanReport report = planner_.plan(instance, request, deadline);
     const double cpu_sec = static_cast<double>(std::clock() - cpu_begin) / CLOCKS_PER_SEC;
-    out_ << field(sweep_.maps[i]) << ',' << field(sweep_.scenarios[i]) << ',' << instance.robots()
-         << ',' << toString(report.objective) << ',' << field(solver) << ',' << field(split) << ','
-         << report.threads << ',' << toString(report.termination) << ',' << report.runtime_sec
-         << ',' << cpu_sec << ',' << report.first_plan_sec << ',' << report.makespan << ','
-         << report.makespan_lower_bound << ',' << report.sum_of_costs << ','
-         << report.sum_of_costs_lower_bound << ',' << (report.optimal ? 1 : 0) << ',';
-    if (report.cut_off_robot) {
-      out_ << grid->size() << ",,,";
-    } else {
-      const InstanceFeatures features = measureFeatures(instance);
-      out_ << features.cells << ',' << features.conflicting << ',' << features.largest_group << ','
-           << features.head_on;
-    }
-    out_ << std::endl;  // a sweep is long: every row is worth having at once
+    std::vector<std::string> row = keyOf(cell);
+    row.insert(row.end(), {toString(report.termination), textOf(report.runtime_sec),
+                           textOf(cpu_sec), textOf(report.first_plan_sec), textOf(report.makespan),
+                           textOf(report.makespan_lower_bound), textOf(report.sum_of_costs),
+                           textOf(report.sum_of_costs_lower_bound), report.optimal ? "1" : "0"});
+    addFeatures(report.cut_off_robot.has_value(), instance, row);
+    return row;
   }
 
-  Sweep sweep_;
-  std::ostream& out_;
+  static void addFeatures(bool cut_off, const Instance& instance, std::vector<std::string>& row) {
+    if (cut_off) {
+      row.insert(row.end(), {textOf(instance.grid().size()), "", "", ""});
+      return;
+    }
+    const InstanceFeatures features = measureFeatures(instance);
+    row.insert(row.end(), {textOf(features.cells), textOf(features.conflicting),
+                           textOf(features.largest_group), textOf(features.head_on)});
+  }
+
+  const Sweep sweep_;
+  const std::vector<SweepCell> cells_;
   std::shared_ptr<const StopFlag> stop_;
   Executor executor_;
   Planner planner_;
+  SweepCell read_;  ///< the cell of the grid and scenario below
+  std::shared_ptr<const Grid> grid_;
+  Scenario scenario_;
 };
 
 }  // namespace
 
 ExitCode runBench(const Call& call) {
-  const PlanRequest defaults;
   CommandLine line("bench",
                    "Plans every combination of scenario, number of robots, solver and split, and\n"
                    "writes one CSV row for each. cpu_seconds counts all threads.");
-  line.offerRepeatable("map", "FILE", "MovingAI .map, or map_server .yaml; one, or one a scenario");
-  line.offerRepeatable("scen", "FILE", "MovingAI .scen; repeatable");
-  line.require("agents", "N,...", "numbers of robots");
-  line.offer("solvers", "NAME,...", "solvers (auto)");
-  line.offer("splits", "SPEC,...", "split specifications (none)");
-  line.offer("objective", "NAME",
-             "makespan or sum_of_costs (" + toString(defaults.objective) + ")");
-  line.offer("suboptimality", "W", "bound w >= 1 of ECBS (1.5)");
-  line.offer("time-limit", "SECONDS", "wall time for each plan (60)");
-  line.offer("refine", "SECONDS", "share of it that goes into improving a found plan (0)");
-  line.offer("threads", "N", "worker threads (1)");
-  line.offer("seed", "N", "all randomness (0)");
+  declareSweep(line);
   line.offer("output", "FILE", "write the CSV here; - for standard output (-)");
+  line.offerFlag("resume", "go on with the --output file: what has a row there is not done again");
   if (!line.parse(call.arguments)) return ExitCode::kOk;
   const std::string output = line.text("output", "-");
-  if (output == "-") return Bench(readSweep(line), std::cout).run();
-  requireWritable(output);
-  Sweep sweep = readSweep(line);
-  std::ofstream file(output);
-  const ExitCode code = Bench(std::move(sweep), file).run();
-  if (!file) throw InputError(output + ": cannot be written");
-  return code;
+  const bool resume = line.has("resume");
+  if (resume && output == "-") throw OptionError("option --resume needs an --output file");
+  if (output != "-") requireWritable(output);
+  Bench bench(readSweep(line));
+  SweepTable table(output, shapeOfTable(), resume);
+  return bench.run(table);
 }
 
 }  // namespace split_mapf::tool
