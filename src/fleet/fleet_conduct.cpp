@@ -37,7 +37,8 @@ std::vector<Edge> FleetExecution::closedEdges() const {
     for (VisitId v = graph_.at(robot); v < promised_[robot]; ++v) {
       const MoveId move = moves.moveOf(order[v].vertex, order[v + 1].vertex);
       for (const CloseMoves::Close& close : moves.closeTo(move)) {
-        const auto ends = std::minmax(moves.from(close.move), moves.to(close.move));
+        // Of values: what it would be given otherwise refers to places that are no more.
+        const auto ends = std::minmax({moves.from(close.move), moves.to(close.move)});
         closed.emplace_back(ends.first, ends.second);
       }
     }

@@ -95,7 +95,10 @@ bool cutRotations(const FleetQuestion& question, Plan& plan, std::vector<std::ui
 }  // namespace
 
 RollingReplanner::RollingReplanner(std::shared_ptr<const Grid> grid, const RollingOptions& options)
-    : grid_(std::move(grid)), options_(options), rolling_(grid_, options_), checker_(grid_) {}
+    : grid_(std::move(grid)),
+      options_(options),
+      rolling_(std::make_unique<Rolling>(grid_, options_)),
+      checker_(grid_) {}
 
 FleetAnswer RollingReplanner::answer(const FleetQuestion& question, const Deadline& deadline) {
   FleetAnswer answer;
@@ -103,6 +106,7 @@ FleetAnswer RollingReplanner::answer(const FleetQuestion& question, const Deadli
   answer.anew = question.anew;
   answer.ground = question.ground;
   try {
+    closeEdges(question.closed_edges);
     ask(question);
     const bool breaks = question.avoid_rings && question.graph.release() > 0;
     std::vector<std::uint32_t> waiting;
@@ -166,7 +170,7 @@ void RollingReplanner::ask(const FleetQuestion& question) {
 }
 
 RollingAnswer RollingReplanner::search(const FleetQuestion& question, const Deadline& deadline) {
-  rolling_.begin(question_, steps_over_);
+  rolling_->begin(question_, steps_over_);
   const std::uint64_t asked = question.budget.expansions;
   const std::uint64_t most =
       asked > 0 ? asked : std::max(kLeast, kPerRobot * question_.robots.size());
@@ -174,11 +178,11 @@ RollingAnswer RollingReplanner::search(const FleetQuestion& question, const Dead
   while (done < most) {
     const bool is_hurried = deadline.expired();
     if (is_hurried && done * kHurriedShare >= most) break;
-    const std::uint64_t more = rolling_.improve(std::min(kAtOnce, most - done));
+    const std::uint64_t more = rolling_->improve(std::min(kAtOnce, most - done));
     if (more == 0) break;
     done += more;
   }
-  return rolling_.answer();
+  return rolling_->answer();
 }
 
 Plan RollingReplanner::withoutRotations(const FleetQuestion& question, Plan plan,
@@ -213,9 +217,18 @@ std::vector<GoalFault> RollingReplanner::faultsOf(const FleetQuestion& question,
   return faults;
 }
 
+/// They change when a robot drops out on its way, or comes back: seldom.
+void RollingReplanner::closeEdges(const std::vector<Edge>& closed) {
+  if (closed == closed_edges_) return;
+  const std::vector<bool> none(grid_->size(), false);
+  rolling_ = std::make_unique<Rolling>(openPart(grid_, none, closed), options_);
+  closed_edges_ = closed;
+  open_.reset();
+}
+
 const std::shared_ptr<const Grid>& RollingReplanner::openGrid(const std::vector<bool>& blocked) {
   if (!open_ || open_blocked_ != blocked) {
-    open_ = openPart(grid_, blocked);
+    open_ = openPart(grid_, blocked, closed_edges_);
     open_blocked_ = blocked;
   }
   return open_;

@@ -30,9 +30,11 @@ inline Plan standing(const std::vector<Vertex>& places) {
 /// A rolling fleet of discs whose tasks come one by one.
 class RollingWorld : public FleetWorld {
  public:
+  /// @param distance_m  that centres keep on a planning graph.
   RollingWorld(const std::shared_ptr<const Grid>& grid, const std::vector<Vertex>& places,
-               const FleetOptions& options, std::uint64_t seed, std::uint32_t max_active = 0)
-      : FleetWorld(grid, standing(places), options, seed), max_active_(max_active) {
+               const FleetOptions& options, std::uint64_t seed, std::uint32_t max_active = 0,
+               double distance_m = 0)
+      : FleetWorld(grid, standing(places), options, seed, distance_m), max_active_(max_active) {
     begin();
   }
 

@@ -18,6 +18,9 @@ namespace split_mapf {
 /// rotations are planned away, and what still would wait for one is left out: so whatever an answer
 /// holds can be carried out, and robots stop at its end unless another one comes.
 ///
+/// On a planning graph the same holds. Edges that come too near to robots that take no part are
+/// left out of the graph; who has stood for long begins to count anew when these change.
+///
 /// The same questions give the same answers at any thread count, as long as no deadline expires.
 /// Not thread-safe. Cost: that of Rolling, and O(visits).
 class RollingReplanner {
@@ -37,11 +40,13 @@ class RollingReplanner {
   Plan withoutRotations(const FleetQuestion& question, Plan plan, const Deadline& deadline);
   void requireValid(const Plan& plan);
   std::vector<GoalFault> faultsOf(const FleetQuestion& question, const RollingAnswer& found) const;
+  void closeEdges(const std::vector<Edge>& closed);
   const std::shared_ptr<const Grid>& openGrid(const std::vector<bool>& blocked);
 
   std::shared_ptr<const Grid> grid_;
   RollingOptions options_;
-  Rolling rolling_;
+  std::unique_ptr<Rolling> rolling_;
+  std::vector<Edge> closed_edges_;  ///< that its graph lacks
   FleetChecker checker_;
   RollingQuestion question_;
   double begun_sec_ = 0;  ///< when the step began that the last question was asked in
