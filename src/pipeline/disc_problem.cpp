@@ -7,12 +7,10 @@
 #include <utility>
 
 #include "split_mapf/core/wording.h"
+#include "split_mapf/roadmap/disc_ground.h"
 
 namespace split_mapf {
 namespace {
-
-// A leg is one step: with longer ones the step of all robots would last too long.
-constexpr double kMostSnap = 10;  // spacings
 
 std::string firstOf(const std::vector<std::string>& messages) {
   if (messages.size() == 1) return messages.front();
@@ -32,14 +30,6 @@ void settleRadii(DiscTask& task) {
     largest = std::max(largest, radius);
   }
   task.roadmap.robot_radius_m = largest;
-}
-
-void requireSnapDistance(double snap_distance_m, const Roadmap& roadmap) {
-  const double spacing = roadmap.spacing_cells * roadmap.resolution_m;
-  if (snap_distance_m >= 0 && snap_distance_m <= kMostSnap * spacing + 1e-9) return;
-  throw OptionError("snap_distance is " + inMetres(snap_distance_m) + ": 0 to " +
-                    inMetres(kMostSnap * spacing) +
-                    " are possible, ten cell sizes, as a leg is walked in one step");
 }
 
 double longestLeg(const Roadmap& roadmap, const std::vector<Vertex>& vertices,
@@ -73,9 +63,8 @@ DiscProblem::DiscProblem(DiscTask task, const Deadline& deadline) : task_(std::m
   std::optional<Roadmap> roadmap = buildRoadmap(*task_.raster, task_.roadmap, deadline);
   if (!roadmap) throw Interrupted();
   roadmap_ = std::move(*roadmap);
-  requireSnapDistance(task_.snap_distance_m, roadmap_);
-  attachment_ =
-      attachRobots(*task_.raster, roadmap_, task_.robots, task_.snap_distance_m, deadline);
+  const double snap_distance_m = snapDistanceOf(roadmap_, task_.snap_distance_m);
+  attachment_ = attachRobots(*task_.raster, roadmap_, task_.robots, snap_distance_m, deadline);
   if (!attachment_.faults.empty()) {
     std::vector<std::string> messages;
     for (const AttachmentFault& fault : attachment_.faults) {

@@ -1,6 +1,7 @@
 #include "split_mapf/pipeline/roll.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <ctime>
 #include <numeric>
 #include <optional>
@@ -35,6 +36,14 @@ RollOptions checked(const RollOptions& options) {
   }
   if (options.known_goals < 1) throw OptionError("0 known goals; at least 1 is expected");
   return options;
+}
+
+/// Whether one move goes on as another did. On a planning graph moves have any direction; less than
+/// half of a right angle off is straight.
+bool goesOn(Cell before, Cell move) {
+  const std::int64_t dot = std::int64_t{before.x} * move.x + std::int64_t{before.y} * move.y;
+  const std::int64_t cross = std::int64_t{before.x} * move.y - std::int64_t{before.y} * move.x;
+  return dot > 0 && dot > std::abs(cross);
 }
 
 /// One call of roll().
@@ -228,7 +237,7 @@ class RollRun {
         const Cell b = grid_->cellOf(path[t]);
         const Cell move{b.x - a.x, b.y - a.y};
         ++moves;
-        turns += last != Cell{0, 0} && last != move ? 1 : 0;
+        turns += last != Cell{0, 0} && !goesOn(last, move) ? 1 : 0;
         last = move;
       }
     }

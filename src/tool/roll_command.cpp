@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <limits>
@@ -8,14 +7,9 @@
 #include <optional>
 #include <sstream>
 #include <string>
-#include <vector>
 
 #include "split_mapf/core/error.h"
-#include "split_mapf/core/grid_parts.h"
 #include "split_mapf/core/wording.h"
-#include "split_mapf/io/map_file.h"
-#include "split_mapf/io/movingai.h"
-#include "split_mapf/io/task_file.h"
 #include "split_mapf/parallel/executor.h"
 #include "split_mapf/pipeline/roll.h"
 #include "tool/command_line.h"
@@ -23,7 +17,10 @@
 #include "tool/delay_options.h"
 #include "tool/files.h"
 #include "tool/league_result.h"
+#include "tool/robot_options.h"
+#include "tool/roll_ground.h"
 #include "tool/roll_output.h"
+#include "tool/roll_task.h"
 #include "tool/stop_signals.h"
 
 namespace split_mapf::tool {
@@ -92,75 +89,6 @@ RollOptions readOptions(const CommandLine& line) {
   return options;
 }
 
-std::vector<Vertex> verticesOf(const Grid& grid, const std::vector<Cell>& cells) {
-  std::vector<Vertex> vertices;
-  vertices.reserve(cells.size());
-  for (const Cell cell : cells) vertices.push_back(grid.vertexAt(cell));
-  return vertices;
-}
-
-std::optional<std::uint32_t> readAgents(const CommandLine& line) {
-  if (!line.has("agents")) return std::nullopt;
-  return static_cast<std::uint32_t>(
-      line.wholeNumber("agents", 1, 1, std::numeric_limits<std::uint32_t>::max()));
-}
-
-std::vector<Vertex> readStarts(const CommandLine& line, const Grid& grid, std::uint64_t seed) {
-  const std::optional<std::uint32_t> agents = readAgents(line);
-  if (!line.has("starts")) {
-    if (!agents) throw OptionError("option --agents, or --starts, is needed: how many robots?");
-    return drawStarts(grid, *agents, seed);
-  }
-  const std::string file = line.text("starts");
-  if (std::filesystem::path(file).extension() == ".agents") {
-    return verticesOf(grid, readLeagueAgents(file, grid, agents));
-  }
-  return verticesOf(grid, readMovingAiScenario(file, grid, agents).starts);
-}
-
-/// Robot i gets tasks i, i + n, and so on.
-void dealOut(const std::string& file, const Grid& grid, RollTask& task) {
-  task.goals.resize(task.starts.size());
-  const std::vector<std::vector<Cell>> tasks = readLeagueTasks(file, grid);
-  const GridParts parts(grid);
-  for (std::size_t i = 0; i < tasks.size(); ++i) {
-    const std::size_t robot = i % task.starts.size();
-    const Vertex start = task.starts[robot];
-    for (const Cell cell : tasks[i]) {
-      const Vertex goal = grid.vertexAt(cell);
-      if (parts.partOf(goal) != parts.partOf(start)) {
-        throw InputError(file + ": task " + std::to_string(i) + ": its cell " + toString(cell) +
-                         " is cut off from " + toString(grid.cellOf(start)) + ", where robot " +
-                         std::to_string(robot) + " starts, whose task it is");
-      }
-      task.goals[robot].push_back(goal);
-    }
-  }
-}
-
-RollTask readTask(const CommandLine& line, const Grid& grid, std::uint64_t seed) {
-  RollTask task;
-  const std::string file = line.text("tasks", "random");
-  const std::string extension = std::filesystem::path(file).extension().string();
-  if (extension == ".yaml" || extension == ".yml") {
-    if (line.has("starts"))
-      throw OptionError("option --starts: " + quote(file) + " has starts of its own");
-    const GoalLists lists = readGoalLists(file, grid, readAgents(line));
-    task.starts = verticesOf(grid, lists.starts);
-    for (const std::vector<Cell>& goals : lists.goals)
-      task.goals.push_back(verticesOf(grid, goals));
-    return task;
-  }
-  task.random = file == "random";
-  if (!task.random && extension != ".tasks") {
-    throw OptionError("option --tasks: " + quote(file) +
-                      " was given; random, a .yaml or a .tasks is expected");
-  }
-  task.starts = readStarts(line, grid, seed);
-  if (!task.random) dealOut(file, grid, task);
-  return task;
-}
-
 void printSummary(const RollReport& report, const RollOptions& options) {
   std::cout << std::fixed << std::setprecision(3) << counted(report.paths.size(), "robot") << ", "
             << counted(report.steps, "step") << ": " << report.throughput << " goals a step ("
@@ -175,6 +103,20 @@ void printSummary(const RollReport& report, const RollOptions& options) {
             << " at most; the first step " << report.first_step_ms << "\n";
 }
 
+/// Nothing when the deadline struck before a planning graph was done.
+std::optional<RollGround> prepareGround(const CommandLine& line, const Deadline& deadline) {
+  try {
+    return std::make_optional<RollGround>(line, deadline);
+  } catch (const Interrupted&) {
+    return std::nullopt;
+  }
+}
+
+ExitCode stoppedAfter(std::uint32_t steps, const RollOptions& options, const Deadline& deadline) {
+  std::cerr << "split_mapf: " << steps << " of " << options.steps << " steps were done\n";
+  return deadline.stopRequested() ? ExitCode::kCancelled : ExitCode::kTimeout;
+}
+
 }  // namespace
 
 ExitCode runRoll(const Call& call) {
@@ -184,6 +126,8 @@ ExitCode runRoll(const Call& call) {
       "Every step is checked by code that shares nothing with the planner. Exit code:\n"
       "0 all steps were done, 3 time limit, 4 stopped by a signal.");
   declareOptions(line);
+  declareRobotOptions(line);
+  declareRobotSpeed(line);
   if (!line.parse(call.arguments)) return ExitCode::kOk;
   RollOptions options = readOptions(line);
   const bool for_league = asksForLeague(line);
@@ -191,23 +135,28 @@ ExitCode runRoll(const Call& call) {
   if (!file.empty() && file != "-") requireWritable(file);
   const double limit_sec = line.number("time-limit", std::numeric_limits<double>::infinity(), 0);
   const Deadline deadline(limit_sec, catchStopSignals());
-  const auto grid = readMap(line.text("map"));
-  const RollTask task = readTask(line, *grid, options.rolling.seed);
+  const std::optional<RollGround> ground = prepareGround(line, deadline);
+  if (!ground) return stoppedAfter(0, options, deadline);
+  if (for_league && ground->hasSize()) {
+    throw OptionError("option --export lorr is for robots that move from cell to cell");
+  }
+  const RollTask task = readRollTask(line, *ground, options.rolling.seed);
+  const std::shared_ptr<const Grid>& grid = ground->grid();
   if (!line.has("window")) options.rolling.window = windowFor(task.starts.size(), grid->size());
   const RollReport report = roll(grid, task, options, deadline);
+  ground->requireApart(report);
   if (!file.empty()) {
     std::ostringstream text;
     if (for_league) {
       writeLeagueRollJson(text, *grid, report);
     } else {
-      writeRollJson(text, *grid, options, report);
+      writeRollJson(text, *ground, options, report);
     }
     writeText(file, text.str());
   }
   if (!line.has("quiet") && file != "-") printSummary(report, options);
   if (report.steps == options.steps) return ExitCode::kOk;
-  std::cerr << "split_mapf: " << report.steps << " of " << options.steps << " steps were done\n";
-  return deadline.stopRequested() ? ExitCode::kCancelled : ExitCode::kTimeout;
+  return stoppedAfter(report.steps, options, deadline);
 }
 
 }  // namespace split_mapf::tool

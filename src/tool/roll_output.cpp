@@ -1,6 +1,7 @@
 #include "tool/roll_output.h"
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -27,14 +28,31 @@ void writeRows(std::ostream& out, const char* name, const Rows& rows, ToJson to_
   out << "\n  ]";
 }
 
+/// What the cells are to robots that have size.
+template <typename Field>
+void writeSize(const RollGround& ground, const Field& field) {
+  const OccupancyMap& map = ground.metres();
+  const Roadmap& roadmap = ground.discs().roadmap();
+  field("grid", {{"resolution", map.resolution_m},
+                 {"width", roadmap.width},
+                 {"height", roadmap.height},
+                 {"origin", {map.origin.x_m, map.origin.y_m, map.origin.yaw_rad}}});
+  field("robot_radius", roadmap.robot_radius_m);
+  field("clearance", roadmap.clearance_m);
+  field("longest_step", roadmap.longest_edge_m);
+  if (const std::optional<double> sec = ground.stepDuration()) field("step_duration", *sec);
+}
+
 }  // namespace
 
-void writeRollJson(std::ostream& out, const Grid& grid, const RollOptions& options,
+void writeRollJson(std::ostream& out, const RollGround& ground, const RollOptions& options,
                    const RollReport& report) {
+  const Grid& grid = *ground.grid();
   const auto field = [&out](const char* name, const Json& value) {
     out << "  \"" << name << "\": " << value.dump() << ",\n";
   };
   out << "{\n";
+  if (ground.hasSize()) writeSize(ground, field);
   field("agents", report.paths.size());
   field("seed", options.rolling.seed);
   field("threads", options.rolling.threads);

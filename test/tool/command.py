@@ -84,6 +84,15 @@ class CommandTest(unittest.TestCase):
             f"0\t{name}.map\t{width}\t{height}\t{a[0]}\t{a[1]}\t{b[0]}\t{b[1]}\t0\n"
             for a, b in ways))
 
+    def write_metric_map(self, name, rows, resolution=0.05, origin=(0, 0, 0)):
+        """Writes name.yaml and name.pgm from rows of . (free), # (occupied) and ? (unknown)."""
+        grey = {".": 254, "#": 0, "?": 205}
+        self.write(name + ".pgm", f"P2\n{len(rows[0])} {len(rows)}\n255\n" + "".join(
+            " ".join(str(grey[cell]) for cell in row) + "\n" for row in rows))
+        self.write(name + ".yaml",
+                   f"image: {name}.pgm\nresolution: {resolution}\norigin: {list(origin)}\n"
+                   "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n")
+
     def generate(self, name, *options):
         self.expect(0, "generate", "--output-map", name + ".map", "--output-scen", name + ".scen",
                     *options)

@@ -15,19 +15,11 @@ POSES = """robots:
 
 
 class PosesTest(CommandTest):
-    def write_map(self, name, rows, resolution=0.05, origin=(0, 0, 0)):
-        """Writes name.yaml and name.pgm from rows of . (free) and # (occupied)."""
-        self.write(name + ".pgm", f"P2\n{len(rows[0])} {len(rows)}\n255\n" + "".join(
-            " ".join("254" if cell == "." else "0" for cell in row) + "\n" for row in rows))
-        self.write(name + ".yaml",
-                   f"image: {name}.pgm\nresolution: {resolution}\norigin: {list(origin)}\n"
-                   "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n")
-
     def write_two_rooms(self, door=13, origin=(0, 0, 0)):
         """Two rooms of 3.5 m x 4.5 m with a door of so many cells in the wall between them."""
         gap = range(40, 40 + door)
-        self.write_map("rooms", ["." * 70 + ("." if y in gap else "#") * 3 + "." * 70
-                                 for y in range(90)], origin=origin)
+        self.write_metric_map("rooms", ["." * 70 + ("." if y in gap else "#") * 3 + "." * 70
+                                        for y in range(90)], origin=origin)
 
     def plan(self, code, *options):
         return self.expect(code, "plan", "--map", "rooms.yaml", "--scen", "poses.yaml",
@@ -268,7 +260,7 @@ class PosesTest(CommandTest):
             self.assertIn("poses.yaml: holds poses of robots that have size", text)
         self.expect_refusal("plan.json: read a plan of robots that have size", "simulate", "--map",
                             "rooms.yaml", "--scen", "rooms.scen", "--plan", "plan.json")
-        self.write_map("rooms", ["."], resolution=1)
+        self.write_metric_map("rooms", ["."], resolution=1)
         self.write("poses.yaml", "robots:\n- {id: a, start: [0.5, 0.5, 0], goal: [0.5, 0.5, 0]}\n")
         self.plan(0)
         self.assertFalse(os.path.exists(self.path("plan.json.part")))

@@ -8,20 +8,11 @@ from command import CommandTest
 
 
 class RoadmapTest(CommandTest):
-    def write_map(self, name, rows, resolution=0.05):
-        """Writes name.yaml and name.pgm from rows of . (free), # (occupied) and ? (unknown)."""
-        grey = {".": 254, "#": 0, "?": 205}
-        self.write(name + ".pgm", f"P2\n{len(rows[0])} {len(rows)}\n255\n" + "".join(
-            " ".join(str(grey[cell]) for cell in row) + "\n" for row in rows))
-        self.write(name + ".yaml",
-                   f"image: {name}.pgm\nresolution: {resolution}\norigin: [0, 0, 0]\nnegate: 0\n"
-                   "occupied_thresh: 0.65\nfree_thresh: 0.196\n")
-
     def write_two_rooms(self, door):
         """Two rooms of 60x60 cells with a door of so many cells in the wall between them."""
         gap = range(23, 23 + door)
-        self.write_map("rooms", ["." * 60 + ("." if y in gap else "#") * 3 + "." * 60
-                                 for y in range(60)])
+        self.write_metric_map("rooms", ["." * 60 + ("." if y in gap else "#") * 3 + "." * 60
+                                        for y in range(60)])
 
     def report(self, *options):
         text = self.expect(0, "roadmap", "--map", "rooms.yaml", *options).stdout
@@ -52,12 +43,12 @@ class RoadmapTest(CommandTest):
         # A corridor of 1.5 m with a speck in its middle: 0.725 m are left on both sides.
         rows = ["." * 120 for _ in range(30)]
         rows[15] = "." * 60 + "#" + "." * 59
-        self.write_map("rooms", rows)
+        self.write_metric_map("rooms", rows)
         plain = self.report("--robot-radius", 0.4)
         freed = self.report("--robot-radius", 0.4, "--ignore-specks", 1)
         self.assertGreater(freed["edges"], plain["edges"])
         rows[15] = rows[15].replace("#", "?")
-        self.write_map("rooms", rows)
+        self.write_metric_map("rooms", rows)
         self.assertEqual(self.report("--robot-radius", 0.4)["edges"], plain["edges"])
         unknown_free = self.report("--robot-radius", 0.4, "--unknown-space", "free")
         self.assertEqual(unknown_free["edges"], freed["edges"])

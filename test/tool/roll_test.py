@@ -1,5 +1,6 @@
 """Fleets whose goals come one by one: options, results, refusals."""
 
+import math
 import unittest
 
 from command import CommandTest
@@ -118,6 +119,72 @@ class RollTest(CommandTest):
         self.refuse("below the least", "--agents", 2, "--min-delay", 3, "--max-delay", 2)
         self.refuse("lorr", "--agents", 2, "--export", "planviz", "--output", "x.json")
         self.refuse("starts of its own", "--tasks", "t.yaml", "--starts", "p.scen")
+
+    def write_two_rooms(self):
+        """Two rooms of 3.5 m x 4.5 m with a door in the wall between them, and a closet
+        whose door is too narrow."""
+        gap = range(40, 54)
+        rows = ["." * 70 + ("." if y in gap else "#") * 3 + "." * 70 for y in range(90)]
+        closet = ["#" * 10 + "." * 4 + "#" * 129] + ["#" + "." * 40 + "#" * 102] * 40
+        self.write_metric_map("rooms", rows + closet)
+
+    def roll_with_size(self, *options):
+        self.expect(0, "roll", "--map", "rooms.yaml", "--robot-radius", 0.3, "--clearance", 0.02,
+                    "--output", "r.json", *options)
+        return self.read_json("r.json")
+
+    def require_apart(self, result):
+        """Centres that go straight from step to step, all sampled in between."""
+        side = result["grid"]["resolution"]
+        paths = [[(x * side, y * side) for x, y in path] for path in result["paths"]]
+        needed = 2 * result["robot_radius"] + result["clearance"] - 1e-6
+        for t in range(result["steps"]):
+            for part in (0, 0.25, 0.5, 0.75):
+                places = [(a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]))
+                          for a, b in ((path[t], path[t + 1]) for path in paths)]
+                for i, one in enumerate(places):
+                    for other in places[:i]:
+                        self.assertGreaterEqual(math.dist(one, other), needed, f"step {t}")
+        for path in paths:
+            for a, b in zip(path, path[1:]):
+                self.assertLessEqual(math.dist(a, b), result["longest_step"] + 1e-6)
+
+    def test_robots_that_have_size_keep_apart(self):
+        self.write_two_rooms()
+        options = ("--agents", 8, "--steps", 80, "--warmup", 10, "--step-expansions", 3000)
+        result = self.roll_with_size(*options, "--robot-speed", 0.5)
+        self.assertGreater(result["goals_reached"], 10)
+        self.assertAlmostEqual(result["step_duration"], result["longest_step"] / 0.5)
+        self.assertLess(result["turns"], 1)
+        self.require_apart(result)
+        self.assertEqual(self.roll_with_size(*options, "--threads", 2)["paths"], result["paths"])
+
+    def test_cells_of_the_map_stand_for_the_nearest_vertices(self):
+        self.write_two_rooms()
+        self.write("t.yaml", "robots:\n- {start: [12, 14], goals: [[128, 70], [20, 20]]}\n"
+                             "- {start: [130, 13], goals: [[14, 71]]}\n")
+        result = self.roll_with_size("--tasks", "t.yaml", "--steps", 40, "--warmup", 0)
+        self.assertEqual([len(goals) for goals in result["goals"]], [2, 1])
+        for (_, x, y), wanted in zip(result["goals"][0], [(128, 70), (20, 20)]):
+            self.assertLess(math.dist((x, y), wanted), 18)  # the lattice's spacing is 19 cells
+        self.require_apart(result)
+
+    def test_refuses_what_robots_that_have_size_cannot_do(self):
+        self.write_two_rooms()
+        size = ("--map", "rooms.yaml", "--robot-radius", 0.3)
+        for parts, text, *options in (
+                (["robots 0 and 1", "nearest"], "- {start: [12, 14]}\n- {start: [13, 14]}\n"),
+                (["a start", "0.01 m", "(12,14)"], "- {start: [12, 14]}\n", "--snap-distance", 0.01),
+                (["robot 0", "cut off"], "- {start: [12, 14], goals: [[20, 110]]}\n")):
+            self.write("t.yaml", "robots:\n" + text)
+            self.expect_refusal(parts, "roll", *size, "--tasks", "t.yaml", *options)
+        self.expect_refusal("lorr", "roll", *size, "--agents", 2, "--export", "lorr", "--output",
+                            "x.json")
+        self.expect_refusal("snap_distance is 100 m", "roll", *size, "--agents", 2,
+                            "--snap-distance", 100)
+        self.refuse(["metres", "map_server"], "--agents", 2, "--robot-radius", 0.3)
+        self.refuse("--snap-distance needs robots that have size", "--agents", 2,
+                    "--snap-distance", 1)
 
     def test_a_limit_ends_the_run(self):
         result = self.roll("--agents", 40, "--steps", 1000000, "--time-limit", 0.5, code=3)
