@@ -73,8 +73,8 @@ class Rolling::Run {
     expansions_ = 0;
     closeVertices(question);
     escorts_.goOn(question, steps, closed_);
-    const bool crowded = 5 * question.robots.size() > std::size_t{2} * graph_.size();
-    patience_ = crowded ? kCrowdedPatience : kPatience;
+    is_crowded_ = 5 * question.robots.size() > std::size_t{2} * graph_.size();
+    patience_ = is_crowded_ ? kCrowdedPatience : kPatience;
     readItineraries(question);
     addEscorts(question);
     bindRobots(question);
@@ -86,7 +86,10 @@ class Rolling::Run {
 
   std::uint64_t improve(std::uint64_t expansions, const Deadline& deadline) {
     // All that a valid window does not need waits until one is there.
-    if (!improver_knows_) improver_.begin(window_);
+    if (!improver_knows_) {
+      if (is_crowded_) base_.renew(order_, window_);
+      improver_.begin(window_);
+    }
     improver_knows_ = true;
     // Held, as a small cache would throw them away before they are of use.
     for (const Vertex goal : wanted_) held_.push_back(slopes_.find(goal));
@@ -245,6 +248,7 @@ class Rolling::Run {
   std::vector<bool> barred_;  // by vertex: closed, or the region of an escort
   std::vector<WindowStart> starts_;
   FleetChecker checker_;
+  bool is_crowded_ = false;
   std::uint32_t patience_ = kPatience;  // [windows]
   std::uint64_t now_ = 0;               // [steps]
   std::uint64_t expansions_ = 0;

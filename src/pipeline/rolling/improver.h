@@ -74,8 +74,6 @@ class Improver {
   std::uint32_t whoIs(Vertex v, std::uint32_t t) const;
   const Itinerary& itinerary(std::uint32_t robot) const { return window_->itineraries[robot]; }
 
-  static constexpr std::uint32_t kNoRobot = 0xffffffffU;
-
   const MoveGraph& graph_;
   std::uint32_t steps_;
   ThreadBudget budget_;  // beside the caller

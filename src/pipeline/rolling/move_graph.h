@@ -13,6 +13,8 @@ namespace split_mapf::rolling {
 using Slot = std::uint8_t;
 constexpr Slot kWait = 4;
 constexpr std::uint32_t kSlots = 4;
+/// In place of a robot's number: nobody.
+constexpr std::uint32_t kNoRobot = 0xffffffffU;
 
 /// A graph of at most four edges a vertex, laid out for searches that look at all ways out of a
 /// vertex at once. Immutable, hence safe to share. Cost: 28 bytes a vertex.

@@ -1,5 +1,6 @@
 #include "pipeline/rolling/step_maker.h"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace split_mapf::rolling {
@@ -8,7 +9,8 @@ StepMaker::StepMaker(const MoveGraph& graph, std::uint64_t seed)
     : graph_(graph),
       engine_(seed),
       robot_at_(graph.size(), kNoRobot),
-      robot_next_(graph.size(), kNoRobot) {}
+      robot_next_(graph.size(), kNoRobot),
+      swap_rule_(graph, robot_at_) {}
 
 bool StepMaker::make(const std::vector<StepWish>& wishes, const std::vector<std::uint32_t>& order,
                      const WindowTable& table, std::vector<Slot>& moves) {
@@ -61,7 +63,10 @@ bool StepMaker::move(std::uint32_t robot, const std::vector<StepWish>& wishes,
       open(robot_at_[endOf(wishes[frame.robot], moves_[frame.robot])], wishes, table);
       continue;
     }
-    if (step == Step::kSettled) return true;
+    if (step == Step::kSettled) {
+      for (; !frames_.empty(); frames_.pop_back()) follow(frames_.back(), wishes);
+      return true;
+    }
     frames_.pop_back();  // then whoever asked it to move tries something else
     if (frames_.empty()) return false;
   }
@@ -70,18 +75,32 @@ bool StepMaker::move(std::uint32_t robot, const std::vector<StepWish>& wishes,
 void StepMaker::open(std::uint32_t robot, const std::vector<StepWish>& wishes,
                      const WindowTable& table) {
   const StepWish& wish = wishes[robot];
-  std::uint64_t random = engine_();
   Frame frame{};
   frame.robot = robot;
+  frame.partner = kNoRobot;
+  sortChoices(frame, wish, table);
+  // Who has plans of its own, or would rather stay, backs off for nobody.
+  if (wish.wanted == MoveGraph::kNoSlot && !wish.isIdle()) {
+    frame.partner = swap_rule_.partnerOf(robot, frame.choices[0], wishes, moves_, table);
+    if (frame.partner != kNoRobot) {
+      std::reverse(frame.choices.begin(), frame.choices.begin() + frame.count);
+    }
+  }
+  frames_.push_back(frame);
+}
+
+void StepMaker::sortChoices(Frame& frame, const StepWish& wish, const WindowTable& table) {
+  std::uint64_t random = engine_();
   std::array<std::uint32_t, kSlots + 1> keys{};
+  const std::uint32_t nearer = wish.isIdle() ? 0U : wish.slope[wish.at];
   const std::uint32_t open = table[wish.at].open | 1U << kWait;
   for (Slot slot = 0; slot <= kWait; ++slot) {
     if ((open >> slot & 1U) == 0) continue;
-    std::uint32_t key = wish.idle == (slot == kWait) ? 1 : 2;  // idle: stay; others: do not
-    if (!wish.idle) {
-      if ((wish.nearer >> slot & 1U) != 0 && slot != kWait)
+    std::uint32_t key = wish.isIdle() == (slot == kWait) ? 1 : 2;  // idle: stay; others: do not
+    if (!wish.isIdle()) {
+      if ((nearer >> slot & 1U) != 0 && slot != kWait)
         key = 1;
-      else if (slot == kWait || (wish.nearer >> slot & 16U) != 0)
+      else if (slot == kWait || (nearer >> slot & 16U) != 0)
         key = 2;
       else
         key = 3;
@@ -99,7 +118,6 @@ void StepMaker::open(std::uint32_t robot, const std::vector<StepWish>& wishes,
     keys[place] = key;
     frame.choices[place] = slot;
   }
-  frames_.push_back(frame);
 }
 
 StepMaker::Step StepMaker::advance(const std::vector<StepWish>& wishes) {
@@ -125,6 +143,15 @@ StepMaker::Step StepMaker::advance(const std::vector<StepWish>& wishes) {
   moves_[frame.robot] = kWait;
   robot_next_[wish.at] = frame.robot;
   return Step::kStuck;
+}
+
+/// The partner of a robot that has backed off comes after it.
+void StepMaker::follow(const Frame& frame, const std::vector<StepWish>& wishes) {
+  if (frame.partner == kNoRobot || frame.tried != 1) return;
+  const Vertex left = wishes[frame.robot].at;
+  if (moves_[frame.partner] != MoveGraph::kNoSlot || robot_next_[left] != kNoRobot) return;
+  robot_next_[left] = frame.partner;
+  moves_[frame.partner] = graph_.slotOf(wishes[frame.partner].at, left);
 }
 
 }  // namespace split_mapf::rolling

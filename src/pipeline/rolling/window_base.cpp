@@ -19,6 +19,23 @@ void WindowBase::make(const std::vector<WindowStart>& starts,
   }
 }
 
+void WindowBase::renew(const std::vector<std::uint32_t>& order, FleetWindow& window) {
+  other_.steps = window.steps;
+  other_.itineraries = window.itineraries;
+  other_.tracks.resize(window.tracks.size());
+  const Path nothing;
+  std::vector<Path> bound(window.robots());
+  std::vector<WindowStart> starts;
+  for (std::uint32_t robot = 0; robot < window.robots(); ++robot) {
+    const auto begin = window.tracks[robot].at.begin();
+    bound[robot].assign(begin, begin + window.itineraries[robot].free_from + 1);
+    starts.push_back({&bound[robot], &nothing});
+  }
+  stop_until_ = 0;
+  if (!makeSteps(starts, order, other_)) return;
+  if (other_.cost() < window.cost()) window.tracks.swap(other_.tracks);
+}
+
 bool WindowBase::makeSteps(const std::vector<WindowStart>& starts,
                            const std::vector<std::uint32_t>& order, FleetWindow& window) {
   const std::uint32_t robots = window.robots();
@@ -108,8 +125,8 @@ void WindowBase::wish(const std::vector<WindowStart>& starts, std::uint32_t robo
   const Itinerary& itinerary = window.itineraries[robot];
   StepWish& wish = wishes_[robot];
   wish.at = window.tracks[robot].at[t];
-  wish.idle = itinerary.isIdle(reached_[robot]);
-  wish.nearer = wish.idle ? 0 : itinerary.slopes[reached_[robot]][wish.at];
+  const bool is_idle = itinerary.isIdle(reached_[robot]);
+  wish.slope = is_idle ? nullptr : itinerary.slopes[reached_[robot]];
   wish.wanted = MoveGraph::kNoSlot;
   const auto free = static_cast<std::uint32_t>(prefix.size()) - 1;
   wish.bound = t < free || t < stop_until_ || itinerary.free_from >= window.steps;

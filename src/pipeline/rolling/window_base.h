@@ -27,6 +27,10 @@ class WindowBase {
   /// their prefixes. @param order  the most important robot first
   void make(const std::vector<WindowStart>& starts, const std::vector<std::uint32_t>& order,
             FleetWindow& window);
+  /// Makes another window of no more than what robots are bound to, and takes it if it costs less:
+  /// what was known may be a jam that grew with every step kept, and that no neighbourhood is wide
+  /// enough to undo. @pre make() has made the window.
+  void renew(const std::vector<std::uint32_t>& order, FleetWindow& window);
 
  private:
   bool makeSteps(const std::vector<WindowStart>& starts, const std::vector<std::uint32_t>& order,
@@ -50,6 +54,7 @@ class WindowBase {
   std::vector<Slot> moves_;
   std::vector<std::uint32_t> reached_;  // by robot: goals, at the step at hand
   std::vector<bool> on_known_;          // by robot: still where it was known to be
+  FleetWindow other_;                   // that renew() makes
 };
 
 }  // namespace split_mapf::rolling
