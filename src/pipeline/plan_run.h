@@ -1,7 +1,9 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "pipeline/checked_request.h"
 #include "pipeline/piece_solver.h"
@@ -70,6 +72,8 @@ class PlanRun {
   /// Takes note of what somebody has proved for the objective [steps]. @pre there is a plan.
   void raiseBound(std::uint64_t bound, const std::string& by);
   void interrupt();
+  /// Values of what `auto` calls: lean ones where memory is short or the plan is to be seen soon.
+  std::map<std::string, std::string> valuesOf(const std::string& solver) const;
   /// What `auto` chose gets all the time but what the last resort is likely to need.
   void keepTimeForLastResort(double expected_sec);
 

@@ -6,6 +6,7 @@
 #include "pipeline/plan_run.h"
 #include "portfolio/auto_choice.h"
 #include "portfolio/solver_choice.h"
+#include "search/crowd.h"
 
 namespace split_mapf {
 namespace {
@@ -41,7 +42,7 @@ void PlanRun::choose() {
   log_.enterStage("choose");
   if (!last_resort_.empty() && step_table_.isTooLarge()) {
     request_.solver = last_resort_;
-    request_.solver_options.values = solvers_.info(last_resort_).lean_values;
+    request_.solver_options.values = valuesOf(last_resort_);
     choice_ = " (chosen: " + step_table_.describe() + ")";
     return;
   }
@@ -55,6 +56,7 @@ void PlanRun::choose() {
   question.refines = request_.asked.refine_sec > 0;
   const AutoChoice choice = chooseMethod(question, CostModel::shipped());
   request_.solver = choice.solver;
+  request_.solver_options.values = valuesOf(choice.solver);
   request_.solver_options.expansion_limit = choice.turn;
   keepTimeForLastResort(choice.last_resort_sec);
   choice_ = " (chosen: " + choice.reason + ")";
@@ -98,6 +100,12 @@ void PlanRun::raiseBound(std::uint64_t bound, const std::string& by) {
       {log_.elapsedSec(), report_.makespan, report_.sum_of_costs, report_.proved_lower_bound});
 }
 
+std::map<std::string, std::string> PlanRun::valuesOf(const std::string& solver) const {
+  const bool is_crowd = !splits() && instance_.robots() >= kCrowd;
+  if (!step_table_.isTooLarge() && !is_crowd) return {};
+  return solvers_.info(solver).lean_values;
+}
+
 bool PlanRun::callAnother(const RepairLoop::Outcome& outcome) {
   const bool late = outcome.last.termination == Termination::kTimeout && !deadline_.expired();
   const bool failed = late || outcome.last.termination == Termination::kNoPlanFound;
@@ -115,10 +123,7 @@ bool PlanRun::callAnother(const RepairLoop::Outcome& outcome) {
   request_.solver = others_->back();
   others_->pop_back();
   request_.splitter = nullptr;
-  request_.solver_options.values.clear();
-  if (step_table_.isTooLarge()) {
-    request_.solver_options.values = solvers_.info(request_.solver).lean_values;
-  }
+  request_.solver_options.values = valuesOf(request_.solver);
   request_.solver_options.expansion_limit = request_.first_plan_only ? kTurnOfOthers : 0;
   report_.subproblems.clear();  // they tell of the plan, and this one came to nothing
   return true;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "search/placement_forecast.h"
+
 namespace split_mapf {
 namespace {
 
@@ -132,6 +134,7 @@ Placement::Outcome Placement::run(std::uint32_t horizon, const Effort& effort,
                                   const Deadline& deadline) {
   std::size_t fewest = queue_.size();
   std::vector<std::uint32_t> postponed;
+  PlacementForecast forecast(instance_.robots());
   for (std::uint64_t left = effort.patience; !queue_.empty();) {
     if (left == 0) return Outcome::kSpent;
     if (effort.expansion_limit > 0 && expansions_ > effort.expansion_limit) {
@@ -155,6 +158,10 @@ Placement::Outcome Placement::run(std::uint32_t horizon, const Effort& effort,
     queue_.insert(queue_.begin(), postponed.begin(), postponed.end());
     if (interrupted) return Outcome::kInterrupted;
     batch_size_.adapt(batch_.size(), postponed.size());
+    if (effort.forecasts && effort.expansion_limit > 0 &&
+        forecast.exceeds(effort.expansion_limit, batch_.size(), queue_.size(), expansions_)) {
+      return Outcome::kHopeless;
+    }
     if (queue_.size() < fewest) {
       fewest = queue_.size();
       left = effort.patience;

@@ -29,7 +29,13 @@ class Placement {
   static constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};
   /// Placings that depart late, once a horizon has proved hard.
   static constexpr std::uint32_t kDelayedOneIn = 4;
-  enum class Outcome { kDone, kSpent, kExhausted, kInterrupted };
+  enum class Outcome {
+    kDone,         ///< nobody waits
+    kSpent,        ///< the patience is over
+    kExhausted,    ///< the expansions are
+    kHopeless,     ///< they would be, long before everybody is placed
+    kInterrupted,  ///< the deadline
+  };
 
   /// @param queue  everybody, in the order of the first placing. @param reserved  placed for good
   /// before all; null: nothing is. The instance outlives this object.
@@ -45,6 +51,9 @@ class Placement {
     /// Placements without fewer robots waiting than ever before in this run.
     std::uint64_t patience = 0;
     std::uint64_t expansion_limit = 0;  ///< in all runs; 0: none
+    /// Gives up as soon as the limit is foreseen to be passed, see PlacementForecast; without one
+    /// it does nothing.
+    bool forecasts = false;
     /// How often a robot may be displaced; a robot that could only displace one that was displaced
     /// so often is left over.
     std::uint64_t displacements = kNoLimit;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "search/crowd.h"
 #include "search/placement.h"
 #include "search/robot_order.h"
 #include "solver/reserved_paths.h"
@@ -48,6 +49,17 @@ Placement beginPlacing(const SolveRequest& request, std::uint64_t seed, std::uin
   Plan known = *request.known;
   trimToArrival(known);
   return Placement(instance, known, horizon, seed, request.threads, reserved);
+}
+
+/// The crowd is too dense: better to stop while another solver has time.
+SolveResult hopeless(const Placement& placement, std::uint64_t expansion_limit) {
+  SolveResult result;
+  result.termination = Termination::kNoPlanFound;
+  result.low_level_expansions = placement.expansions();
+  result.message = "gave up after " + std::to_string(placement.expansions()) +
+                   " expansions, as far more than " + std::to_string(expansion_limit) +
+                   " are foreseen";
+  return result;
 }
 
 /// Where the search has found nothing better the known plan is the answer.
@@ -110,6 +122,7 @@ SolveResult ConflictOptimizerSolver::placeAll(const SolveRequest& request,
   effort.patience =
       std::max<std::uint64_t>(1, settings_.patience * std::max(kFewRobots, instance.robots()));
   effort.expansion_limit = expansion_limit_;
+  effort.forecasts = instance.robots() >= kCrowd;
   effort.hasty = ruleOf(objective_).greatest_only;
   // Longer than this no robot has to travel on any but pathological graphs.
   const std::uint64_t longest = std::uint64_t{4} * (bound + instance.graph().size());
@@ -123,6 +136,7 @@ SolveResult ConflictOptimizerSolver::placeAll(const SolveRequest& request,
     result.low_level_expansions = placement.expansions();
     if (outcome == Placement::Outcome::kSpent) continue;
     if (outcome == Placement::Outcome::kExhausted) return outOfExpansions(expansion_limit_);
+    if (outcome == Placement::Outcome::kHopeless) return hopeless(placement, expansion_limit_);
     if (outcome == Placement::Outcome::kInterrupted) {
       result.termination = interruptionOf(deadline);
       return result;

@@ -113,7 +113,7 @@ LacamSolver::LacamSolver(const SolverOptions& options)
   settings.expansion_limit = options.expansion_limit;
   const OptionValues values(options.values);
   settings.check = values.flag("check", settings.check);
-  settings.guidance = values.count("guidance", settings.guidance);
+  if (options.values.count("guidance") > 0) settings.guidance = values.count("guidance", 0);
   settings.margin = std::min(kMostMargin, values.count("margin", settings.margin));
   settings.swap = values.flag("swap", settings.swap);
   settings.polish = values.count("polish", settings.polish);
@@ -133,8 +133,9 @@ SolverInfo LacamSolver::info() {
   info.lean_values = {{"polish", "0"}};
   info.options = {
       {"check", flag(defaults.check), "ask first whether the rules of exchange allow a plan"},
-      {"guidance", std::to_string(defaults.guidance),
-       "rounds in which robots choose scattered paths to follow; 0: no guidance"},
+      {"guidance", "4",
+       "rounds in which robots choose scattered paths to follow; 0: no guidance; not given: 2 in "
+       "teams of 4096 robots or more"},
       {"margin", std::to_string(defaults.margin),
        "steps that a scattered path may be longer than the shortest"},
       {"swap", flag(defaults.swap), "robots that block each other in corridors change places"},
@@ -154,7 +155,7 @@ SolveResult LacamSolver::run(const SolveRequest& request) const {
   SolveResult result;
   result.lower_bound = lowerBound(instance, settings_->objective);
   // Its memory, and the tables that it holds, are free before the plan is polished.
-  auto search = std::make_unique<LacamSearch>(instance, *settings_, deadline);
+  auto search = std::make_unique<LacamSearch>(instance, *settings_, request.threads, deadline);
   const LacamSearch::Outcome outcome = search->run();
   result.high_level_nodes = search->configurations();
   result.low_level_expansions = search->expansions();

@@ -40,6 +40,17 @@ TEST(AutoChoice, TheSoonestAndOfThoseAboutAsSoonTheBest) {
   EXPECT_EQ(chooseMethod(without, model).solver, "hopeless");
 }
 
+TEST(AutoChoice, ACrowdsTurnWasTimeThatAnotherNeeded) {
+  const CostModel model(R"(methods:
+  - {solver: sturdy, objective: makespan, log_seconds: [2, 0, 0, 0, 0, 0, 0],
+     log_excess: [-9, 0, 0, 0, 0, 0, 0]}
+)");
+  const auto turn = [&](std::uint32_t robots) {
+    return static_cast<double>(chooseMethod(question(robots), model).turn);
+  };
+  EXPECT_NEAR(turn(5000) / turn(4000), 6.0 / 25, 1e-6);
+}
+
 TEST(AutoChoice, ALoosePlanBeforeRefinementWhereRobotsMeetHeadOn) {
   const CostModel model(R"(methods:
   - {solver: tight, objective: sum_of_costs, log_seconds: [-0.4, 0, 0, 0, 0, 0, 1],

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <string>
+#include <utility>
+
 #include "split_mapf/core/validate.h"
 #include "split_mapf/parallel/executor.h"
 #include "support/ascii_grid.h"
@@ -28,6 +32,18 @@ TEST(ConflictOptimizer, ACrowdKeepsTheMakespanBoundAndIsCertified) {
   EXPECT_EQ(makespanOf(*result.plan), makespanLowerBound(instance));
   EXPECT_TRUE(result.optimal);
   EXPECT_EQ(result.certified_by, "conflict_optimizer");
+}
+
+TEST(ConflictOptimizer, SpentAllItsExpansionsOnACrowdThatItCouldNotPlace) {
+  const Instance instance = test::generatedInstance(76, 0.1, 4100);
+  SolverOptions options;
+  options.objective = Objective::kSumOfCosts;
+  options.expansion_limit = 300000;
+  const SolveResult result = ConflictOptimizerSolver(options).solve(instance, Deadline());
+  EXPECT_EQ(result.termination, Termination::kNoPlanFound);
+  EXPECT_LT(result.low_level_expansions, options.expansion_limit / 2);
+  EXPECT_NE(result.message.find("far more than 300000 are foreseen"), std::string::npos)
+      << result.message;
 }
 
 TEST(ConflictOptimizer, ThreadsDoNotChangeThePlan) {

@@ -16,6 +16,7 @@
 #include "solver/lacam/pibt.h"
 #include "split_mapf/core/random.h"
 #include "split_mapf/core/validate.h"
+#include "split_mapf/parallel/executor.h"
 #include "support/ascii_grid.h"
 #include "support/long_run.h"
 #include "support/oracle_cases.h"
@@ -226,6 +227,23 @@ TEST(Guidance, TwoRobotsThatMeetHeadOnTakeDifferentRows) {
   straight.margin = 0;
   for (const Path& path : scatterPaths(instance, straight, Deadline()).paths) {
     EXPECT_EQ(path.size(), 10U);
+  }
+}
+
+TEST(Guidance, BatchesAreTheSameOnAnyNumberOfThreads) {
+  const Instance instance = test::generatedInstance(30, 0.1, 150);
+  ScatterOptions options;
+  options.batch = 16;
+  const ScatteredPaths alone = scatterPaths(instance, options, Deadline());
+  Executor executor(3);
+  options.threads = executor.lend(3);
+  const ScatteredPaths together = scatterPaths(instance, options, Deadline());
+  EXPECT_EQ(together.paths, alone.paths);
+  EXPECT_EQ(together.expansions, alone.expansions);
+  for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {
+    ASSERT_FALSE(alone.paths[robot].empty());
+    EXPECT_EQ(alone.paths[robot].front(), instance.start(robot));
+    EXPECT_EQ(alone.paths[robot].back(), instance.goal(robot));
   }
 }
 

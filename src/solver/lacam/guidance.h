@@ -6,6 +6,7 @@
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"
+#include "split_mapf/parallel/lent_threads.h"
 
 namespace split_mapf {
 
@@ -45,6 +46,10 @@ struct ScatterOptions {
   std::uint32_t margin = 10;  ///< steps beyond the shortest path
   std::uint64_t seed = 0;
   std::uint64_t expansion_limit = 0;  ///< 0: none
+  /// Robots that choose side by side, so that none of them sees the others' new paths. More than
+  /// one is for crowds, where nobody notices. The threads change nothing but the time.
+  std::uint32_t batch = 1;
+  LentThreads threads;
 };
 
 /// Paths that keep out of each other's way.

@@ -2,20 +2,27 @@
 
 #include <algorithm>
 
+#include "search/crowd.h"
 #include "search/robot_order.h"
 #include "solver/lacam/shortest_sequence.h"
 
 namespace split_mapf {
 namespace {
 
+// Rounds of guidance. In crowds more than two take long and hardly lessen costs.
+constexpr std::uint64_t kRounds = 4;
+constexpr std::uint64_t kRoundsOfCrowd = 2;
+// Robots of a crowd that choose their paths side by side.
+constexpr std::uint32_t kBatchOfCrowd = 8;
 constexpr std::size_t kMebibyte = std::size_t{1} << 20;
 
 }  // namespace
 
 LacamSearch::LacamSearch(const Instance& instance, const LacamSettings& settings,
-                         const Deadline& deadline)
+                         const LentThreads& threads, const Deadline& deadline)
     : instance_(instance),
       settings_(settings),
+      threads_(threads),
       deadline_(deadline),
       engine_(settings.seed),
       explored_(instance.robots(), instance.graph().size()),
@@ -24,7 +31,8 @@ LacamSearch::LacamSearch(const Instance& instance, const LacamSettings& settings
       ranks_(makeOrder(instance, "longest_first", engine_)) {}
 
 LacamSearch::Outcome LacamSearch::run() {
-  if (settings_.guidance > 0) makeGuidance();
+  const std::uint64_t rounds = settings_.guidance.value_or(isCrowd() ? kRoundsOfCrowd : kRounds);
+  if (rounds > 0) makeGuidance(rounds);
   // Not before: the guidance holds the robots' tables one by one.
   distances_ = std::make_unique<RobotDistances>(instance_);
   pibt_ = std::make_unique<Pibt>(instance_, *distances_, guidance_.get(), settings_.swap,
@@ -52,16 +60,22 @@ LacamSearch::Outcome LacamSearch::run() {
   return Outcome::kFound;
 }
 
-void LacamSearch::makeGuidance() {
+void LacamSearch::makeGuidance(std::uint64_t rounds) {
   ScatterOptions options;
-  options.rounds = settings_.guidance;
+  options.rounds = rounds;
   options.margin = static_cast<std::uint32_t>(settings_.margin);
   options.seed = settings_.seed;
   options.expansion_limit = settings_.expansion_limit;
+  if (isCrowd()) {
+    options.batch = kBatchOfCrowd;
+    options.threads = threads_;
+  }
   const ScatteredPaths scattered = scatterPaths(instance_, options, deadline_);
   guidance_expansions_ = scattered.expansions;
   guidance_ = std::make_unique<Guidance>(scattered.paths);
 }
+
+bool LacamSearch::isCrowd() const { return instance_.robots() >= kCrowd; }
 
 void LacamSearch::addStart() {
   const Configuration& starts = instance_.starts();

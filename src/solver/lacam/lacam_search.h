@@ -15,6 +15,7 @@
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"
+#include "split_mapf/parallel/lent_threads.h"
 
 namespace split_mapf {
 
@@ -31,7 +32,8 @@ class LacamSearch {
   };
 
   /// @pre nobody is cut off; the references outlive this object.
-  LacamSearch(const Instance& instance, const LacamSettings& settings, const Deadline& deadline);
+  LacamSearch(const Instance& instance, const LacamSettings& settings, const LentThreads& threads,
+              const Deadline& deadline);
 
   Outcome run();
   /// @pre run() found one. Paths end at their arrivals.
@@ -51,9 +53,10 @@ class LacamSearch {
     ConstraintQueue constraints;
   };
 
-  void makeGuidance();
+  void makeGuidance(std::uint64_t rounds);
   void addStart();
   void load(std::uint32_t node);
+  bool isCrowd() const;
   bool isSpent() const;
   bool isFull();
   std::uint32_t reach();
@@ -64,6 +67,7 @@ class LacamSearch {
 
   const Instance& instance_;
   const LacamSettings& settings_;
+  const LentThreads threads_;
   const Deadline& deadline_;
   std::unique_ptr<RobotDistances> distances_;
   std::unique_ptr<Guidance> guidance_;

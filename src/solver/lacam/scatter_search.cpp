@@ -65,11 +65,8 @@ std::uint32_t Crossings::count(Vertex v, std::uint32_t t) const {
   return count;
 }
 
-ScatterSearch::ScatterSearch(const Instance& instance, std::uint32_t margin)
-    : instance_(instance),
-      margin_(margin),
-      table_(instance.graph()),
-      closed_(instance.graph().size(), 0) {}
+ScatterSearch::ScatterSearch(const Instance& instance, const Crossings& table, std::uint32_t margin)
+    : instance_(instance), table_(table), margin_(margin), closed_(instance.graph().size(), 0) {}
 
 Path ScatterSearch::find(std::uint32_t robot) {
   const HeldDistances distances = instance_.distances(robot);

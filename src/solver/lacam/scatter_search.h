@@ -43,16 +43,17 @@ class Crossings {
   std::vector<std::uint32_t> ended_;                // by vertex: step from which a path stays
 };
 
-/// Finds a robot's path through space that collides with few of the others.
+/// Finds a robot's path through space that collides with few of those in a table, which the search
+/// only reads. Used by one thread at a time.
 class ScatterSearch {
  public:
-  ScatterSearch(const Instance& instance, std::uint32_t margin);
+  /// @pre instance and table outlive this object.
+  ScatterSearch(const Instance& instance, const Crossings& table, std::uint32_t margin);
 
   Path find(std::uint32_t robot);
   /// Of the last path.
   std::uint64_t collisions() const { return collisions_; }
   std::uint64_t expansions() const { return expansions_; }
-  Crossings& table() { return table_; }
 
  private:
   struct State {
@@ -66,8 +67,8 @@ class ScatterSearch {
   void expand(std::uint32_t index);
 
   const Instance& instance_;
+  const Crossings& table_;
   std::uint32_t margin_;
-  Crossings table_;
   const DistanceTable* distances_ = nullptr;
   std::uint32_t shortest_ = 0;
   std::vector<std::uint32_t> closed_;  // by vertex: number of the search that closed it

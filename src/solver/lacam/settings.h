@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "split_mapf/core/objective.h"
 
@@ -12,8 +13,9 @@ struct LacamSettings {
   std::uint64_t seed = 0;
   std::uint64_t expansion_limit = 0;  ///< as in SolverOptions
 
-  bool check = true;           ///< ask solvability/solvability first
-  std::uint64_t guidance = 4;  ///< rounds in which robots choose scattered paths; 0: no guidance
+  bool check = true;  ///< ask solvability/solvability first
+  /// Rounds in which robots choose scattered paths; 0: no guidance. Set: asked for.
+  std::optional<std::uint64_t> guidance;
   std::uint64_t margin = 10;   ///< steps that a scattered path may be longer than the shortest
   bool swap = true;            ///< robots that block each other change places
   std::uint64_t polish = 3;    ///< passes over the plan found
