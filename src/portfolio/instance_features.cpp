@@ -6,6 +6,8 @@
 
 #include <boost/pending/disjoint_sets.hpp>
 
+#include "portfolio/direct_way.h"
+
 namespace split_mapf {
 namespace {
 
@@ -151,8 +153,12 @@ std::uint64_t opposedPairs(const Graph& graph, const std::vector<Path>& paths) {
 
 Path shortestPath(const Instance& instance, std::uint32_t robot) {
   const HeldDistances distances = instance.distances(robot);
+  const std::uint32_t length = distances(instance.start(robot));
+  if (instance.isBounded()) {
+    Path path = directWay(instance.grid(), instance.start(robot), instance.goal(robot), length);
+    if (!path.empty()) return path;
+  }
   Path path = {instance.start(robot)};
-  const std::uint32_t length = distances(path.front());
   path.reserve(length + std::size_t{1});
   for (std::uint32_t left = length; left > 0; --left) {
     for (const Vertex v : instance.graph().neighbours(path.back())) {

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "portfolio/direct_way.h"
 #include "support/ascii_grid.h"
 #include "support/meeting.h"
 #include "support/small_instances.h"
@@ -35,6 +36,26 @@ TEST(InstanceFeatures, ConflictsConnectRobotsThatNeverMeet) {
       test::instanceFromAscii({"#a#", "b..", "#.#", "#c#"}, {"#.#", "..b", "#c#", "#a#"});
   const InstanceFeatures features = measureFeatures(chain);
   EXPECT_EQ(features.largest_group, 3U);
+}
+
+TEST(InstanceFeatures, AShortestPathIsTheSameWhateverRoomThereIsForTables) {
+  int direct = 0;
+  int longer = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Instance instance =
+        test::generatedInstance(40, 0.02 * static_cast<double>(seed), 40, seed);
+    const Instance bounded = instance.boundedTo(0);
+    ASSERT_TRUE(bounded.isBounded());
+    for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {
+      const std::uint32_t length = instance.shortestLength(robot);
+      const bool is_direct =
+          !directWay(instance.grid(), instance.start(robot), instance.goal(robot), length).empty();
+      ++(is_direct ? direct : longer);
+      EXPECT_EQ(shortestPath(bounded, robot), shortestPath(instance, robot));
+    }
+  }
+  EXPECT_GT(direct, 100);
+  EXPECT_GT(longer, 100);
 }
 
 TEST(InstanceFeatures, RobotsWithRoomHaveNoConflicts) {
