@@ -1,13 +1,19 @@
 #pragma once
 
 #include <cstddef>
+#include <sstream>
 #include <string>
 
 namespace split_mapf {
 
 /// Reads a whole file. @throws InputError naming the file and the system's reason.
 std::string readFile(const std::string& path);
-/// Writes a whole file. @throws InputError naming the file and the system's reason.
+/// What was written into the stream. @throws std::bad_alloc where memory ran out underway, which a
+/// stream keeps to itself, so that its text ends anywhere.
+std::string wholeText(const std::ostringstream& out);
+/// Writes a whole file, or none: it is made beside `path` and takes its place when it is whole, so
+/// where it fails what was there stays. Pipes and devices, and a file in a folder that takes no
+/// other, are written as they are. @throws InputError naming the file and the system's reason.
 void writeFile(const std::string& path, const std::string& bytes);
 
 /// Ends the reading of a text file: "path:line: message".

@@ -78,7 +78,7 @@ void writeMapJson(const std::string& path, MapSize size, const std::optional<Occ
                   const std::optional<Scenario>& scenario, const std::vector<PosedRobot>& robots) {
   std::ostringstream out;
   writeMapJson(out, size, map, scenario, robots);
-  writeFile(path, out.str());
+  writeFile(path, wholeText(out));
 }
 
 }  // namespace split_mapf

@@ -162,7 +162,7 @@ void writeMovingAiScenario(const std::string& path, const std::string& map_name,
         << grid.height() << '\t' << start.x << '\t' << start.y << '\t' << goal.x << '\t' << goal.y
         << '\t' << (reachable ? static_cast<std::int64_t>(length) : -1) << '\n';
   }
-  writeFile(path, out.str());
+  writeFile(path, wholeText(out));
 }
 
 }  // namespace split_mapf

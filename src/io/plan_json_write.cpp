@@ -232,7 +232,7 @@ void writePlanJson(std::ostream& out, const Grid& grid, const PlanReport& report
 void writePlanJson(const std::string& path, const Grid& grid, const PlanReport& report) {
   std::ostringstream out;
   writePlanJson(out, grid, report);
-  writeFile(path, out.str());
+  writeFile(path, wholeText(out));
 }
 
 void writePlanJson(std::ostream& out, const Grid& grid, const PlanReport& report,
@@ -244,7 +244,7 @@ void writePlanJson(const std::string& path, const Grid& grid, const PlanReport& 
                    const DiscResult& discs) {
   std::ostringstream out;
   writePlanJson(out, grid, report, discs);
-  writeFile(path, out.str());
+  writeFile(path, wholeText(out));
 }
 
 }  // namespace split_mapf

@@ -15,7 +15,7 @@ void writePng(const std::string& path, const Picture& picture) {
   // Into memory first: a full disk is then ours to report, not libpng's.
   std::ostringstream out(std::ios::binary);
   boost::gil::write_view(out, view, boost::gil::png_tag());
-  writeFile(path, out.str());
+  writeFile(path, wholeText(out));
 }
 
 }  // namespace split_mapf

@@ -165,7 +165,7 @@ void writePoseScenario(const std::string& path, const std::vector<PosedRobot>& r
     }
     out << "}\n";
   }
-  writeFile(path, out.str());
+  writeFile(path, wholeText(out));
 }
 
 }  // namespace split_mapf

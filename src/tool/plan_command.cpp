@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <new>
@@ -10,6 +9,7 @@
 
 #include <boost/algorithm/string/join.hpp>
 
+#include "io/file_bytes.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/wording.h"
@@ -123,7 +123,7 @@ class PlanCall {
       listener.better_plan = [this](const PlanReport& report) {
         std::ostringstream text;
         writeText(text, report);
-        replaceOutput(text.str());
+        writeTextFile(options_.output_file, wholeText(text));
       };
     }
     const Deadline deadline(remainingSec(options_, begin_of_call_), stop_);
@@ -203,11 +203,9 @@ class PlanCall {
     writeText(text, report);  // robots that have size are checked here, before anything is said
     if (options_.output_file.empty()) return;
     if (options_.output_file == "-") {
-      std::cout << text.str();
-    } else if (options_.write_better && instance_) {
-      replaceOutput(text.str());
+      std::cout << wholeText(text);
     } else {
-      writeTextFile(options_.output_file, text.str());
+      writeTextFile(options_.output_file, wholeText(text));
     }
   }
 
@@ -219,13 +217,6 @@ class PlanCall {
     writePlanJson(out, grid, report,
                   discResultOf(discs_->map, discs_->robots, *problem_,
                                options_.robots.robot_speed_mps, report));
-  }
-
-  /// Whoever reads the file meets one whole result, the last or this one.
-  void replaceOutput(const std::string& text) const {
-    const std::string part = options_.output_file + ".part";
-    writeTextFile(part, text);
-    std::filesystem::rename(part, options_.output_file);
   }
 
   PlanOptions options_;

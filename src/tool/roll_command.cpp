@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string>
 
+#include "io/file_bytes.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
 #include "split_mapf/parallel/executor.h"
@@ -152,7 +153,7 @@ ExitCode runRoll(const Call& call) {
     } else {
       writeRollJson(text, *ground, options, report);
     }
-    writeText(file, text.str());
+    writeText(file, wholeText(text));
   }
   if (!line.has("quiet") && file != "-") printSummary(report, options);
   if (report.steps == options.steps) return ExitCode::kOk;

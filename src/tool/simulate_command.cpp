@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string>
 
+#include "io/file_bytes.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/fleet/disc_simulation.h"
@@ -128,7 +129,7 @@ ExitCode simulateDiscPlan(const CommandLine& line, const SimulationOptions& opti
     std::ostringstream text;
     writeDiscSimulationJson(text, task.problem->instance(), task.problem->task().frame, options,
                             report);
-    writeText(file, text.str());
+    writeText(file, wholeText(text));
   }
   if (!line.has("quiet") && file != "-") {
     printSummary(options, report.paths);
@@ -169,7 +170,7 @@ ExitCode runSimulate(const Call& call) {
     } else {
       writeSimulationJson(text, task.instance, options, report);
     }
-    writeText(file, text.str());
+    writeText(file, wholeText(text));
   }
   if (!line.has("quiet") && file != "-") printSummary(options, report);
   return conclude(report.unfinished, task.instance.robots(), deadline);

@@ -1,4 +1,5 @@
 // The command-line tool: picks the subcommand, and turns what it throws into exit codes.
+#include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
@@ -100,6 +101,8 @@ ExitCode runAndReport(const std::vector<std::string>& arguments,
 
 int main(int argc, char** argv) {
   const auto begin_of_call = split_mapf::Deadline::Clock::now();
+  // A file that grows beyond a limit is an error of writing, as on a full disk, and no end.
+  std::signal(SIGXFSZ, SIG_IGN);
   const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
   const int code = static_cast<int>(split_mapf::tool::runAndReport(arguments, begin_of_call));
   // A plug-in's thread that does not stop may use what an ordinary exit takes down.

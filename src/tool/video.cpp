@@ -109,7 +109,8 @@ void Video::finish() {
   int status = 0;
   while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
   }
-  const bool is_well = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  // It says 0 where the disk is full, but not without a word.
+  const bool is_well = WIFEXITED(status) && WEXITSTATUS(status) == 0 && errorText().empty();
   process_ = -1;
   if (!is_well) {
     ::unlink(part_.c_str());
@@ -125,10 +126,15 @@ void Video::closePipe() {
   pipe_ = -1;
 }
 
-void Video::fail(const std::string& why) {
+std::string Video::errorText() const {
   std::string said(kMostErrorBytes, '\0');
   std::rewind(errors_.get());
   said.resize(std::fread(said.data(), 1, said.size(), errors_.get()));
+  return said;
+}
+
+void Video::fail(const std::string& why) const {
+  const std::string said = errorText();
   throw InputError(file_ + ": ffmpeg " + why + (said.empty() ? "" : ": " + shown(said)));
 }
 

@@ -31,7 +31,9 @@ class Video {
 
  private:
   void closePipe();
-  [[noreturn]] void fail(const std::string& why);
+  /// The beginning of what ffmpeg has said.
+  std::string errorText() const;
+  [[noreturn]] void fail(const std::string& why) const;
 
   const std::string file_;
   const std::string part_;
