@@ -22,6 +22,9 @@ if(TARGET pipeline_tests)
   split_mapf_add_soak(fleet_crowd pipeline_tests --gtest_filter=FleetCrowd.*)
   split_mapf_add_soak(vda5050 pipeline_tests --gtest_filter=Vda5050Fleet.*)
 endif()
+if(TARGET faults_tests)
+  split_mapf_add_soak(faults faults_tests)
+endif()
 # Without ilp: a few of so many instances keep it busy for minutes.
 if(TARGET conformance_tests)
   split_mapf_add_soak(conformance

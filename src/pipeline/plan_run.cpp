@@ -62,6 +62,8 @@ PlanReport PlanRun::run() {
     if (!report_.plan) {
       report_.termination = Termination::kMemoryLimit;
       report_.message = "memory ran out in stage " + log_.stage();
+    } else if (report_.message.empty()) {
+      report_.message = "solved; then memory ran out";
     }
   }
   if (!report_.plan) report_.message += whatIsKnown(report_, request_, last_resort_);

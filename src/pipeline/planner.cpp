@@ -1,5 +1,6 @@
 #include "split_mapf/pipeline/planner.h"
 
+#include <new>
 #include <utility>
 
 #include "pipeline/band_run.h"
@@ -8,6 +9,24 @@
 #include "pipeline/table_bytes.h"
 
 namespace split_mapf {
+namespace {
+
+/// The answer where not even a run could be begun.
+PlanReport outOfMemory(const Instance& instance, const PlanRequest& request,
+                       const Executor& executor) {
+  PlanReport report;
+  report.solver = request.solver;
+  report.split = request.split;
+  report.objective = request.objective;
+  report.seed = request.seed;
+  report.threads = executor.threadsFor(request.threads);
+  report.robots = instance.robots();
+  report.termination = Termination::kMemoryLimit;
+  report.message = "memory ran out before the first stage, or behind the last";
+  return report;
+}
+
+}  // namespace
 
 void Planner::requireValid(const PlanRequest& request) const {
   check(request, solvers_, splitters_);
@@ -15,12 +34,16 @@ void Planner::requireValid(const PlanRequest& request) const {
 
 PlanReport Planner::plan(const Instance& instance, const PlanRequest& request,
                          const Deadline& deadline, const PlanListener& listener) const {
-  CheckedRequest checked = check(request, solvers_, splitters_);
-  if (BandRun::isFor(instance, checked, solvers_)) {
-    return BandRun(instance, std::move(checked), solvers_, executor_, deadline, listener).run();
+  try {
+    CheckedRequest checked = check(request, solvers_, splitters_);
+    if (BandRun::isFor(instance, checked, solvers_)) {
+      return BandRun(instance, std::move(checked), solvers_, executor_, deadline, listener).run();
+    }
+    const Instance bounded = instance.boundedTo(tableBytes(request));
+    return PlanRun(bounded, std::move(checked), solvers_, executor_, deadline, listener).run();
+  } catch (const std::bad_alloc&) {
+    return outOfMemory(instance, request, executor_);
   }
-  const Instance bounded = instance.boundedTo(tableBytes(request));
-  return PlanRun(bounded, std::move(checked), solvers_, executor_, deadline, listener).run();
 }
 
 }  // namespace split_mapf
