@@ -15,6 +15,8 @@ import subprocess
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 # Told apart by people who do not see all colours, and on paper by their marks.
 COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"]
+# A hundredth more or less is seen, a thousandth is no mountain.
+RATIO_RANGE = "set yrange [*<0.99:1.01<*]"
 MARKS = [(7, 6), (5, 4), (9, 8), (13, 12), (11, 10), (15, 14), (3, 3)]  # filled, hollow
 
 
@@ -75,8 +77,9 @@ class Plot:
                             quoted(title)))
         self.lines += settings + blocks
         # An empty panel keeps its place, and says so.
-        self.lines.append("plot " + (", \\\n  ".join(parts) or "[0:1] [0:1] NaN title 'no plan'"))
-        self.lines += ["unset label 1", "unset logscale", "set xtics auto", "set format '%h'"]
+        self.lines.append("plot " + (", \\\n  ".join(parts) or "[1:2] [1:2] NaN title 'no plan'"))
+        self.lines += ["unset label 1", "unset logscale", "set xtics auto", "set format '%h'",
+                       "set yrange [*:*]"]
 
     def write(self, path):
         script = "\n".join(["set output %s" % quoted(path), *self.lines, "unset multiplot", ""])
@@ -125,7 +128,7 @@ def others_of(description, name, rows):
     return [figure for figure in figures_of("authors_figures.csv") if figure["experiment"] == name]
 
 
-def draw_growth(description, name, rows, path, place_of, axis, logscale=""):
+def draw_growth(description, name, rows, path, place_of, axis, settings_of_x=""):
     """Seconds and cost over robots, threads or cells."""
     plot = Plot(description.experiments[name]["title"], note_of(rows), 2)
     others = others_of(description, name, rows)
@@ -133,7 +136,7 @@ def draw_growth(description, name, rows, path, place_of, axis, logscale=""):
     for value_of, field, settings in [
             (seconds_of, "seconds", ["set logscale y", "set ylabel 'seconds to the plan'",
                                      "set format y '%g'"]),
-            (ratio_of, "ratio", ["set ylabel %s" % quoted(cost_label(rows))])]:
+            (ratio_of, "ratio", ["set ylabel %s" % quoted(cost_label(rows)), RATIO_RANGE])]:
         curves = []
         for index, label in enumerate(labels):
             own = [row for row in rows if row["series"] == label]
@@ -141,8 +144,10 @@ def draw_growth(description, name, rows, path, place_of, axis, logscale=""):
             points = [(float(figure["robots"]), float(figure[field])) for figure in others
                       if figure["series"] == label and figure[field]]
             curves.append((label + ", authors", points, others_style(index)))
-        plot.panel([*settings, "set xlabel %s" % quoted(axis), logscale or "unset logscale x",
-                    "set offsets graph 0.05, graph 0.05, graph 0.08, graph 0.05",
+        plot.panel([*settings, "set xlabel %s" % quoted(axis), settings_of_x,
+                    "set offsets %s, %s" % ("0, 0" if "log" in settings_of_x else "graph 0.05, graph 0.05",
+                                            "0, 0" if field == "seconds"
+                                            else "graph 0.08, graph 0.05"),
                     "set key outside bottom center horizontal maxrows 3 font ',9'"], curves)
     plot.write(path)
 
@@ -157,12 +162,13 @@ def draw_series(description, name, rows, path):
     for value_of, field, settings in [
             (seconds_of, "seconds", ["set logscale y", "set ylabel 'seconds to the plan'",
                                      "set format y '%g'"]),
-            (ratio_of, "ratio", ["set ylabel %s" % quoted(cost_label(rows))])]:
+            (ratio_of, "ratio", ["set ylabel %s" % quoted(cost_label(rows)), RATIO_RANGE])]:
         own = median_points(rows, lambda row: labels.index(row["series"]), value_of)
         theirs = [(labels.index(figure["series"]), float(figure[field])) for figure in others]
         plot.panel([*settings, "set xtics (%s)" % tics, "set xlabel 'buffer'" if name == "buffers"
                     else "unset xlabel", "set xrange [-0.5:%g]" % (len(labels) - 0.5),
-                    "set offsets 0, 0, graph 0.1, graph 0.1",
+                    "set offsets 0, 0, %s" % ("0, 0" if field == "seconds"
+                                              else "graph 0.1, graph 0.1"),
                     "set key outside bottom center horizontal"],
                    [("split_mapf", own, lines_style(0)),
                     ("authors", theirs, others_style(1))])
@@ -224,14 +230,15 @@ def draw_trade(description, name, rows, path):
             style = "lc rgb '%s'" % COLOURS[index]
             curves.append((solver, [point[:2] for point in points],
                            "points %s pt %d ps 1.5" % (style, MARKS[index][0])))
-            curves.append(("", points, "labels left offset 0.7,0.5 font ',8' tc rgb '%s'"
-                           % COLOURS[index]))
+            # One above the other, as many have the same cost.
+            curves.append(("", points, "labels center offset 0,%g font ',8' tc rgb '%s'"
+                           % (0.9 + 0.9 * index, COLOURS[index])))
         plot.panel(["set logscale x", "set format x '%g'", "set xlabel 'times as fast'",
                     "set ylabel 'cost, of that without split'",
                     "set title %s font ',10'"
                     % quoted("%s, %s robots" % (place, here[0]["robots"])),
                     "set arrow 1 from first 1, graph 0 to first 1, graph 1 nohead dt 2",
-                    "set offsets graph 0.1, graph 0.25, graph 0.1, graph 0.1",
+                    "set xrange [*<0.5:2<*]", "set yrange [*<0.95:1.05<*]",
                     "set key outside bottom center horizontal font ',9'"], curves)
     plot.write(path)
 
@@ -243,7 +250,8 @@ def cells_of(row):
 
 DRAWERS = {
     "robots": lambda *a: draw_growth(*a, lambda row: float(row["robots"]), "robots"),
-    "threads": lambda *a: draw_growth(*a, lambda row: float(row["threads"]), "threads"),
+    "threads": lambda *a: draw_growth(*a, lambda row: float(row["threads"]), "threads",
+                                      "set xtics 1"),
     "cells": lambda *a: draw_growth(*a, cells_of, "cells of the map", "set logscale x"),
     "series": draw_series,
     "time": draw_time,

@@ -76,7 +76,9 @@ class Differential {
       ++twice_;
       const bool same = report.termination == other.termination &&
                         (!report.plan || report.plan->paths == other.plan->paths);
-      return same ? "" : "another number of threads gives another answer";
+      if (same) return "";
+      return "another number of threads gives another answer: " + summaryOf(report) + ", " +
+             summaryOf(other);
     } catch (const OptionError&) {
       ++outcomes_["refused"];
       return "";
@@ -87,6 +89,12 @@ class Differential {
 
   PlanReport plan(const Instance& instance, const PlanRequest& request) {
     return Planner(availableSolvers(), executor_).plan(instance, request, Deadline(kLimitSec));
+  }
+
+  static std::string summaryOf(const PlanReport& report) {
+    return toString(report.termination) + " in " + std::to_string(report.runtime_sec) +
+           " s, makespan " + std::to_string(report.makespan) + ", sum of costs " +
+           std::to_string(report.sum_of_costs) + " (" + report.message + ")";
   }
 
   /// Some stages give up by shares of the limit.
