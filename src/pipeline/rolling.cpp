@@ -9,6 +9,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "parallel/thread_budget.h"
+#include "parallel/thread_team.h"
 #include "pipeline/rolling/escorts.h"
 #include "pipeline/rolling/improver.h"
 #include "pipeline/rolling/progress.h"
@@ -59,9 +61,11 @@ class Rolling::Run {
         grid_(std::move(grid)),
         graph_(*grid_),
         closed_(graph_.size(), false),
+        budget_(std::min(options.threads, Improver::kBatch) - 1),
+        team_(LentThreads(Improver::kBatch, budget_)),
         slopes_(graph_, options.cache_bytes),
         base_(graph_, closed_, options.seed),
-        improver_(graph_, closed_, options.window, options.threads, options.seed),
+        improver_(graph_, closed_, options.window, team_, options.seed),
         barred_(closed_),
         checker_(grid_) {
     window_.steps = options.window;
@@ -76,7 +80,8 @@ class Rolling::Run {
     is_crowded_ = 5 * question.robots.size() > std::size_t{2} * graph_.size();
     patience_ = is_crowded_ ? kCrowdedPatience : kPatience;
     readItineraries(question);
-    addEscorts(question);
+    if (!stuck_.empty()) asked_ = question;
+    barEscorts();
     bindRobots(question);
     orderRobots(question);
     window_.tracks.resize(question.robots.size());
@@ -87,12 +92,13 @@ class Rolling::Run {
   std::uint64_t improve(std::uint64_t expansions, const Deadline& deadline) {
     // All that a valid window does not need waits until one is there.
     if (!improver_knows_) {
+      if (!stuck_.empty()) addEscorts();
       if (is_crowded_) base_.renew(order_, window_);
       improver_.begin(window_);
     }
     improver_knows_ = true;
     // Held, as a small cache would throw them away before they are of use.
-    for (const Vertex goal : wanted_) held_.push_back(slopes_.find(goal));
+    slopes_.findAll(wanted_, team_, held_);
     wanted_.clear();
     const std::uint64_t done = improver_.improve(expansions, deadline);
     expansions_ += done;
@@ -128,9 +134,21 @@ class Rolling::Run {
     if (slopes_.close(closed_)) progress_.measureAnew();
   }
 
+  /// Those of first goals, without which there is no window.
+  void findSlopes(const RollingQuestion& question) {
+    std::vector<Vertex> goals;
+    for (const RollingRobot& robot : question.robots) {
+      if (!robot.goals.empty() && !slopes_.has(robot.goals.front())) {
+        goals.push_back(robot.goals.front());
+      }
+    }
+    if (!goals.empty()) slopes_.findAll(goals, team_, held_);
+  }
+
   void readItineraries(const RollingQuestion& question) {
     held_before_.swap(held_);  // so that what is asked for again is still there
     held_.clear();
+    findSlopes(question);
     cut_off_.clear();
     stuck_.clear();
     wanted_.clear();
@@ -184,8 +202,18 @@ class Rolling::Run {
     }
   }
 
-  void addEscorts(const RollingQuestion& question) {
-    escorts_.add(*grid_, graph_, question, closed_, stuck_, now_, patience_ * options_.window);
+  /// Finds escorts for those that are stuck, and makes the window anew if there are any.
+  void addEscorts() {
+    const std::uint32_t before = escorts_.size();
+    escorts_.add(*grid_, graph_, asked_, closed_, stuck_, now_, patience_ * options_.window);
+    stuck_.clear();
+    if (escorts_.size() == before) return;
+    barEscorts();
+    bindRobots(asked_);
+    base_.make(starts_, order_, window_);
+  }
+
+  void barEscorts() {
     std::vector<bool> barred = closed_;
     escorts_.bar(barred);
     if (barred == barred_) return;
@@ -232,6 +260,8 @@ class Rolling::Run {
   std::shared_ptr<const Grid> grid_;
   MoveGraph graph_;
   std::vector<bool> closed_;  // by vertex
+  ThreadBudget budget_;       // beside the caller
+  ThreadTeam team_;
   SlopeCache slopes_;
   WindowBase base_;
   Improver improver_;
@@ -244,6 +274,7 @@ class Rolling::Run {
   std::vector<std::uint32_t> cut_off_;
   Progress progress_;
   std::vector<StuckRobot> stuck_;
+  RollingQuestion asked_;  // where somebody is stuck
   Escorts escorts_;
   std::vector<bool> barred_;  // by vertex: closed, or the region of an escort
   std::vector<WindowStart> starts_;

@@ -108,5 +108,31 @@ TEST(RollingEscorts, LeadOnWhoIsBoundForManySteps) {
   EXPECT_TRUE(question.robots[1].goals.empty());
 }
 
+TEST(RollingEscorts, AreSoughtWhenAValidWindowIsThere) {
+  const GridPtr grid = gridFromAscii({"..................", "#.################"});
+  RollingQuestion question;
+  const Vertex left = grid->vertexAt({0, 0});
+  const Vertex right = grid->vertexAt({17, 0});
+  question.robots = {robotAt(0, left, {right}), robotAt(1, right, {left})};
+  Rolling rolling(grid, windowOf(5));
+  for (int step = 0; step < 100; ++step) {
+    rolling.begin(question);
+    const RollingAnswer first = rolling.answer();
+    expectValid(*grid, first.paths, 5);
+    rolling.improve(200);
+    const RollingAnswer answer = rolling.answer();
+    expectValid(*grid, answer.paths, 5);
+    if (answer.escorts > 0) {
+      EXPECT_EQ(first.escorts, 0U);
+      return;
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+      question.robots[i].known.assign(answer.paths[i].begin() + 1, answer.paths[i].end());
+      question.robots[i].prefix = {answer.paths[i][1]};
+    }
+  }
+  FAIL() << "nobody was led";
+}
+
 }  // namespace
 }  // namespace split_mapf

@@ -3,6 +3,8 @@
 #include <memory>
 #include <vector>
 
+#include "parallel/thread_budget.h"
+#include "parallel/thread_team.h"
 #include "pipeline/rolling/itinerary.h"
 #include "pipeline/rolling/slopes.h"
 #include "pipeline/rolling_scenes.h"
@@ -55,6 +57,26 @@ TEST(RollingGround, ForgetsTheDistancesThatWereAskedForLongest) {
   EXPECT_TRUE(slopes.has(19));
   EXPECT_FALSE(slopes.has(1));
   EXPECT_EQ(slopes.find(1)->distance(graph, 5, 100), 4U);
+}
+
+TEST(RollingGround, FindsManyDistancesByAllThreadsAsOneByOne) {
+  const GridPtr grid = generatedHall(16);
+  const rolling::MoveGraph graph(*grid);
+  ThreadBudget workers(2);
+  ThreadTeam team(LentThreads(8, workers));
+  rolling::SlopeCache together(graph, 4 * std::size_t{graph.size()});
+  rolling::SlopeCache alone(graph, 1U << 20U);
+  const std::vector<Vertex> goals = {3, 9, 3, 40, 41, 42, 43, 9};
+  together.find(40);
+  std::vector<std::shared_ptr<const rolling::Slope>> found;
+  together.findAll(goals, team, found);
+  ASSERT_EQ(found.size(), goals.size());
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    const auto slope = alone.find(goals[i]);
+    for (Vertex v = 0; v < graph.size(); ++v) ASSERT_EQ((*found[i])[v], (*slope)[v]);
+  }
+  EXPECT_EQ(found[0], found[2]);
+  EXPECT_EQ(together.find(42), found[5]) << "it is in use, and so is kept";
 }
 
 TEST(RollingGround, LooksAtNextGoalsWhateverTheCacheHolds) {

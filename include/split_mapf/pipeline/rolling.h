@@ -72,9 +72,9 @@ struct RollingAnswer {
 /// Every robot may stop at the end of its prefix: a question in which that would be a collision is
 /// refused. Distances are kept by goal, a byte a vertex, within `cache_bytes`, or what the robots
 /// need now. Not thread-safe. Source: windows after Li et al. (RHCR, AAAI 2021); the rest is ours.
-/// Cost: begin() O(robots * window), a breadth-first search for each goal that is new, and where a
-/// robot is stuck at most two searches of 400,000 expansions; memory about 250 bytes a vertex, and
-/// 104 a thread.
+/// Cost: begin() O(robots * window), and a breadth-first search for each goal that is new, by all
+/// threads; the first improve() the same for goals behind it, and where a robot is stuck at most
+/// two searches of 400,000 expansions; memory about 250 bytes a vertex, and 109 a thread.
 class Rolling {
  public:
   /// @throws OptionError for a window or a number of threads out of range; InputError where a
@@ -88,8 +88,9 @@ class Rolling {
   /// @throws InputError naming robot and cell: a prefix that is empty, longer than the window, no
   /// path, or in conflict with another one; two robots with one id; a goal off the graph.
   void begin(const RollingQuestion& question, std::uint32_t steps = 1);
-  /// Searches on for so many expansions, or until the deadline. @return expansions done; 0 when
-  /// nothing is left to improve. @pre begin() was called.
+  /// Searches on for so many expansions, or until the deadline. The first call behind begin() looks
+  /// for escorts, too. @return expansions done; 0 when nothing is left to improve.
+  /// @pre begin() was called.
   std::uint64_t improve(std::uint64_t expansions, const Deadline& deadline = {});
   /// @throws std::logic_error when what was planned is not valid, which would be a bug.
   RollingAnswer answer();

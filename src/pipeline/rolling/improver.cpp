@@ -12,11 +12,10 @@ constexpr int kWalks = 6;
 }  // namespace
 
 Improver::Improver(const MoveGraph& graph, const std::vector<bool>& closed, std::uint32_t steps,
-                   std::uint32_t threads, std::uint64_t seed)
+                   ThreadTeam& team, std::uint64_t seed)
     : graph_(graph),
       steps_(steps),
-      budget_(std::min(threads, kBatch) - 1),
-      team_(LentThreads(kBatch, budget_)),
+      team_(team),
       who_(std::size_t{graph.size()} * (kMostSteps + 1), 0) {
   for (std::uint32_t i = 0; i < team_.threads(); ++i) {
     workers_.push_back({{WindowTable(graph, closed), WindowSearch(graph, steps), 0}});

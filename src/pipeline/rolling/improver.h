@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "parallel/thread_budget.h"
 #include "parallel/thread_team.h"
 #include "pipeline/rolling/fleet_window.h"
 #include "pipeline/rolling/window_search.h"
@@ -20,9 +19,12 @@ namespace split_mapf::rolling {
 /// Source: large-neighbourhood search after Li et al. (IJCAI 2021), for windows; ours.
 class Improver {
  public:
-  /// @pre graph outlives this object.
+  /// Neighbourhoods that are tried at a time: more threads are of no use.
+  static constexpr std::uint32_t kBatch = RollingOptions::kMostThreads;
+
+  /// @pre graph and team outlive this object.
   Improver(const MoveGraph& graph, const std::vector<bool>& closed, std::uint32_t steps,
-           std::uint32_t threads, std::uint64_t seed);
+           ThreadTeam& team, std::uint64_t seed);
 
   /// Other vertices are closed from the next begin() on.
   void close(const std::vector<bool>& closed);
@@ -32,7 +34,6 @@ class Improver {
   std::uint64_t improve(std::uint64_t expansions, const Deadline& deadline);
 
  private:
-  static constexpr std::uint32_t kBatch = RollingOptions::kMostThreads;
   static constexpr std::uint32_t kMostMembers = 8;
 
   struct Member {
@@ -76,8 +77,7 @@ class Improver {
 
   const MoveGraph& graph_;
   std::uint32_t steps_;
-  ThreadBudget budget_;  // beside the caller
-  ThreadTeam team_;
+  ThreadTeam& team_;
   std::vector<Apart<Worker>> workers_;
   std::vector<Apart<Proposal>> proposals_;
   FleetWindow* window_ = nullptr;

@@ -35,12 +35,31 @@ std::shared_ptr<const Slope> SlopeCache::find(Vertex goal) {
   Entry& entry = entries_[goal];
   entry.used = ++uses_;
   if (!entry.slope) {
-    entry.slope = std::make_shared<const Slope>(search(goal));
+    entry.slope = make(goal, searches_.front());
     std::shared_ptr<const Slope> slope = entry.slope;
     if (bytes() > most_bytes_) makeRoom();
     return slope;
   }
   return entry.slope;
+}
+
+void SlopeCache::findAll(const std::vector<Vertex>& goals, ThreadTeam& team,
+                         std::vector<std::shared_ptr<const Slope>>& found) {
+  std::vector<Vertex> missing;
+  for (const Vertex goal : goals) {
+    if (!has(goal)) missing.push_back(goal);
+  }
+  std::sort(missing.begin(), missing.end());
+  missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
+  if (searches_.size() < team.threads()) searches_.resize(team.threads());
+  std::vector<std::shared_ptr<const Slope>> made(missing.size());
+  team.forEach(static_cast<std::uint32_t>(missing.size()),
+               [&](std::uint32_t i, std::uint32_t member) {
+                 made[i] = make(missing[i], searches_[member]);
+               });
+  for (std::size_t i = 0; i < missing.size(); ++i) entries_[missing[i]].slope = made[i];
+  for (const Vertex goal : goals) found.push_back(find(goal));
+  if (bytes() > most_bytes_) makeRoom();
 }
 
 void SlopeCache::makeRoom() {
@@ -57,12 +76,13 @@ void SlopeCache::makeRoom() {
   }
 }
 
-std::vector<std::uint8_t> SlopeCache::search(Vertex goal) {
-  findLevels(goal);
+std::shared_ptr<const Slope> SlopeCache::make(Vertex goal, Search& search) const {
+  findLevels(goal, search);
+  const std::vector<std::uint8_t>& levels = search.levels;
   std::vector<std::uint8_t> slope(graph_.size());
   for (Vertex v = 0; v < graph_.size(); ++v) {
     const MoveGraph::Node& node = graph_[v];
-    const std::uint32_t own = levels_[v];
+    const std::uint32_t own = levels[v];
     if (own == kUnknown) {
       slope[v] = Slope::kCutOff;
       continue;
@@ -71,33 +91,35 @@ std::vector<std::uint8_t> SlopeCache::search(Vertex goal) {
     std::uint32_t same = 0;
     for (std::uint32_t slot = 0; slot < kSlots; ++slot) {
       const Vertex u = node.next[slot];
-      const std::uint32_t farther = (levels_[u] - own) & kLevelMask;
-      const bool known = levels_[u] != kUnknown;  // else only a closed vertex is beside it
+      const std::uint32_t farther = (levels[u] - own) & kLevelMask;
+      const bool known = levels[u] != kUnknown;  // else only a closed vertex is beside it
       nearer |= (known && farther == kLevelMask ? 1U : 0U) << slot;
       same |= (known && farther == 0 && u != v ? 1U : 0U) << slot;
     }
     slope[v] = static_cast<std::uint8_t>(nearer | same << kSlots);
   }
   if (any_closed_) leadAround(goal, slope);
-  return slope;
+  return std::make_shared<const Slope>(std::move(slope));
 }
 
-void SlopeCache::findLevels(Vertex goal) {
-  levels_.assign(graph_.size(), kUnknown);
-  queue_.resize(std::size_t{graph_.size()} + kSlots);
+void SlopeCache::findLevels(Vertex goal, Search& search) const {
+  std::vector<std::uint8_t>& levels = search.levels;
+  std::vector<Vertex>& queue = search.queue;
+  levels.assign(graph_.size(), kUnknown);
+  queue.resize(std::size_t{graph_.size()} + kSlots);
   std::size_t tail = 0;
-  queue_[tail++] = goal;
-  levels_[goal] = 0;
+  queue[tail++] = goal;
+  levels[goal] = 0;
   for (std::size_t head = 0; head < tail; ++head) {
-    const Vertex v = queue_[head];
+    const Vertex v = queue[head];
     if (closed_[v] && v != goal) continue;
-    const auto next = static_cast<std::uint8_t>((levels_[v] + 1U) & kLevelMask);
+    const auto next = static_cast<std::uint8_t>((levels[v] + 1U) & kLevelMask);
     // Whether a neighbour is new cannot be predicted, so all are written behind the queue's end.
     for (const Vertex u : graph_[v].next) {
-      const bool is_new = levels_[u] == kUnknown;
-      queue_[tail] = u;
+      const bool is_new = levels[u] == kUnknown;
+      queue[tail] = u;
       tail += is_new ? 1 : 0;
-      levels_[u] = is_new ? next : levels_[u];
+      levels[u] = is_new ? next : levels[u];
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "parallel/thread_team.h"
 #include "pipeline/rolling/move_graph.h"
 
 namespace split_mapf::rolling {
@@ -32,7 +33,7 @@ class Slope {
 
 /// Slopes by goal, found when first asked for and kept while they fit into so many bytes; those in
 /// use are kept whatever that is. Closed vertices are led out of, never into. Not thread-safe; what
-/// it returns is. Cost: one breadth-first search for a slope that is not there.
+/// it returns is. Cost: one breadth-first search for each slope that is not there.
 class SlopeCache {
  public:
   /// @pre graph outlives this object.
@@ -43,6 +44,9 @@ class SlopeCache {
   /// @return whether that was so.
   bool close(const std::vector<bool>& closed);
   std::shared_ptr<const Slope> find(Vertex goal);
+  /// The same for many, searched by all threads of a team and put behind `found` in their order.
+  void findAll(const std::vector<Vertex>& goals, ThreadTeam& team,
+               std::vector<std::shared_ptr<const Slope>>& found);
   bool has(Vertex goal) const { return entries_.count(goal) > 0; }
   std::size_t bytes() const { return entries_.size() * graph_.size(); }
 
@@ -51,8 +55,13 @@ class SlopeCache {
     std::shared_ptr<const Slope> slope;
     std::uint64_t used = 0;  // when it was asked for last
   };
-  std::vector<std::uint8_t> search(Vertex goal);
-  void findLevels(Vertex goal);
+  /// What a search needs for itself.
+  struct Search {
+    std::vector<std::uint8_t> levels;
+    std::vector<Vertex> queue;
+  };
+  std::shared_ptr<const Slope> make(Vertex goal, Search& search) const;
+  void findLevels(Vertex goal, Search& search) const;
   void leadAround(Vertex goal, std::vector<std::uint8_t>& slope) const;
   void makeRoom();
 
@@ -62,8 +71,7 @@ class SlopeCache {
   bool any_closed_ = false;
   std::unordered_map<Vertex, Entry> entries_;
   std::uint64_t uses_ = 0;
-  std::vector<std::uint8_t> levels_;  // of the search
-  std::vector<Vertex> queue_;
+  std::vector<Search> searches_ = std::vector<Search>(1);  // by member of a team
 };
 
 }  // namespace split_mapf::rolling
