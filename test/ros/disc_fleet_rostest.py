@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Robots of 0.3 m carry out a plan on the planning graph of a small building: from exactly their
-starts to exactly their goals, late, and one of them dying. Positions are checked by a script that
-knows the bag alone."""
+"""Robots of 0.3 m on the planning graph of a small building. They carry out a plan, from exactly their
+starts to exactly their goals, late, and one of them dying; or goals come one by one. Positions are
+checked by a script that knows the bag alone."""
 
 import copy
 import math
@@ -14,6 +14,7 @@ import rosunit
 from nav_msgs.msg import OccupancyGrid
 
 from fleet_case import FleetCase
+from move_clients import connect, goal_of, task
 from ros_processes import PATIENCE, SentGoal, action_client, start_program, wait_until
 from split_mapf.msg import MultiRobotPlan, PlanOutcome, PlanPathsGoal, RobotState, RobotTask
 from split_mapf.srv import PauseRobots
@@ -127,11 +128,11 @@ class DiscFleet(FleetCase):
         """Of the parts that have begun so far."""
         return {state.plan_id for state in self.states.messages if state.plan_id}
 
-    def kill_and_start_again(self, fleet):
+    def kill_and_start_again(self, fleet, start=None):
         fleet.signal(signal.SIGKILL)
         fleet.wait()
         self.assertTrue(os.path.exists(self.file))
-        fleet = self.start_fleet()
+        fleet = start() if start else self.start_fleet()
         self.assertTrue(fleet.wait_for_output("taking up again"), fleet.output())
         return fleet
 
@@ -157,6 +158,71 @@ class DiscFleet(FleetCase):
         for path in self.plan.paths:
             self.assert_at_goal(path)
         self.assert_kept_apart()
+
+    def stand_on_vertices(self):
+        """Robots appear where their paths on the graph begin."""
+        plan = copy.deepcopy(self.plan)
+        for path in plan.paths:
+            cell = path.cells[0]
+            path.start.position.x = (cell % ROOMS[0] + 0.5) * CELL
+            path.start.position.y = (cell // ROOMS[0] + 0.5) * CELL
+        self.plan_topic.publish(plan)
+        self.addCleanup(self.plan_topic.publish, self.plan)
+        self.start_robots(speed=SPEED)
+        return plan
+
+    def start_rolling(self):
+        return self.start_fleet(5.0, "_robot_radius:=%g" % RADIUS, "_step_duration:=0",
+                                "_robot_speed:=%g" % SPEED)
+
+    def result_of(self, *tasks_of_goal):
+        sent = SentGoal(self.mover, goal_of(*tasks_of_goal))
+        self.assertTrue(sent.wait_for_end(PATIENCE))
+        return sent.result()
+
+    def goals(self, swapped=False):
+        ends = [path.start if swapped else path.goal for path in self.plan.paths]
+        return [task(path.robot_id, end.position.x, end.position.y)
+                for path, end in zip(self.plan.paths, ends)]
+
+    def assert_near_goals(self, wanted):
+        for one in wanted:
+            at, goal = self.place_of(one.robot_id), one.goal.pose.position
+            self.assertLess(math.hypot(at.x - goal.x, at.y - goal.y), 0.7, one.robot_id)
+
+    def test_goals_come_one_by_one_also_after_a_restart(self):
+        plan = self.stand_on_vertices()
+        fleet = self.start_rolling()
+        self.mover = connect()
+        self.assertTrue(wait_until(lambda: len(self.progress.messages) > 2 * self.ROBOTS))
+        result = self.result_of(*self.goals())
+        self.assertEqual(result.outcome, PlanOutcome.SUCCEEDED, result.message)
+        wall = ((ROOMS[0] // 2 + 0.5) * CELL, 0.05)
+        result = self.result_of(task("r0", *wall), task("r1", 0.1, -0.1), task("", 1.0, 1.0))
+        self.assertEqual([fault.code for fault in result.faults],
+                         [PlanOutcome.BLOCKED_CELL, PlanOutcome.OUTSIDE_MAP], result.message)
+        self.assertIn(result.robot_ids[2], [path.robot_id for path in plan.paths])
+        SentGoal(self.mover, goal_of(*self.goals(swapped=True)))
+        self.assertTrue(wait_until(lambda: self.count(RobotState.MOVING) > 2, PATIENCE))
+        fleet = self.kill_and_start_again(fleet, self.start_rolling)
+        self.mover = connect()
+        self.assertTrue(wait_until(lambda: self.count(RobotState.IDLE) == self.ROBOTS, PATIENCE),
+                        fleet.output())
+        for one in self.goals(swapped=True)[:2]:
+            result = self.result_of(one)
+            self.assertEqual(result.outcome, PlanOutcome.SUCCEEDED, result.message)
+            self.assert_near_goals([one])
+        self.assert_kept_apart()
+        # Another one stands between the vertices.
+        newcomer = copy.deepcopy(plan.paths[0])
+        newcomer.robot_id = "r99"
+        newcomer.start.position.x += 0.35
+        self.plan_topic.publish(MultiRobotPlan(grid=plan.grid, header=plan.header,
+                                               longest_step=plan.longest_step, paths=[newcomer]))
+        self.assertTrue(wait_until(lambda: self.place_of("r99") is not None, PATIENCE))
+        result = self.result_of(task("r99", 1.0, 1.0))
+        self.assertEqual(result.outcome, PlanOutcome.UNKNOWN_ROBOT, result.message)
+        self.assertIn("not on a vertex of the planning graph", result.message)
 
     def test_refuses_a_plan_of_another_graph(self):
         self.start_fleet(5.0, "_cell_size:=1.3")

@@ -17,10 +17,9 @@ constexpr double kMostSeconds = 1e9;
 // Robots stand, or run out of promises, while they wait for a plan.
 constexpr double kTimeLimitSec = 10;
 
-// Of the planner node, without a meaning here: a fleet is planned anew for the sum of costs, with
-// the clearance of the plan that it carries out.
-constexpr std::array<const char*, 6> kOfPlannerAlone = {
-    "objective", "clearance", "snap_distance", "max_queued_goals", "publish_paths", "fill_poses"};
+// Of the planner node, without a meaning here: a fleet is planned anew for the sum of costs.
+constexpr std::array<const char*, 4> kOfPlannerAlone = {"objective", "max_queued_goals",
+                                                        "publish_paths", "fill_poses"};
 
 bool readChoice(ParameterReader& reader, const std::string& name, const char* yes, const char* no,
                 bool chosen) {

@@ -108,13 +108,19 @@ std::optional<Cell> FleetServer::placeOf(const geometry_msgs::PoseStamped& pose)
 void FleetServer::closeCells() {
   std::vector<bool> blocked(grid_->grid->size(), false);
   std::vector<bool> strangers = discs_ ? left_out_cells_ : blocked;
-  const double reach_m = discs_ ? discs_->reach() : 0;
-  const double distance_m = discs_ ? discs_->distance() : 0;
+  const DiscGround* const rolls_on = ground_ ? ground_->discs.get() : nullptr;
+  const double reach_m = discs_ ? discs_->reach() : rolls_on != nullptr ? rolls_on->reach() : 0;
+  const double distance_m = discs_                ? discs_->distance()
+                            : rolls_on != nullptr ? rolls_on->distance()
+                                                  : 0;
   for (const std::uint32_t cell : blocked_) {
     markNear(blocked, grid_->geometry.cellOf(cell), reach_m);
   }
   for (const auto& [id, known] : known_) {
-    if (known.place && index_.count(id) == 0) markNear(strangers, *known.place, distance_m);
+    if (!known.place || index_.count(id) > 0) continue;
+    // Those that join stand on vertices, and are far from all that is around.
+    if (rolls_on != nullptr && fleet_->isJoining(id)) continue;
+    markNear(strangers, *known.place, distance_m);
   }
   fleet_->setBlocked(blocked);
   fleet_->setStrangers(strangers);
@@ -126,8 +132,8 @@ void FleetServer::tick() {
   if (!fleet_) takeUpAgain(time);
   beginWhenReady(time);
   if (!fleet_) return;
-  if (index_.size() == fleet_->robots()) closeCells();
   if (tasks_) joinReporting(time);
+  if (index_.size() == fleet_->robots()) closeCells();
   fleet_->advance(time);
   if (tasks_) conductTasks(time);
   askLocked(time);

@@ -97,19 +97,13 @@ void FleetServer::roll(double now) {
                  all_paused_ || !paused_.empty() || !isAtRest(*fleet_));
   if (is_busy || (fleet_ && !hasNewMap())) return;
   const auto map = maps_.choose(std::make_shared<const nav_msgs::OccupancyGrid>());
-  const GoalOptions& goal = options_.server.goal;
-  PlanningGrid grid = makePlanningGrid(*map, goal.occupancy, goal.ignore_specks);
-  FleetOptions options = options_.fleet;
-  options.rolling = true;
-  const double resolution = grid.geometry.info().resolution;
-  options.step_sec = stepDurationOf(goal, resolution);
-  if (options_.robot_radius_m > 0) {
-    options.release = releaseFraction(options_.robot_radius_m, resolution);
-  }
+  RollingGround ground = makeRollingGround(*map, options_.server.goal);
+  const FleetOptions options = rollingOptions(ground);
   if (fleet_) keepPlaces();
   moves_.reset();
   tasks_.reset();
-  changeGrid(grid);
+  changeGrid(ground.grid);
+  ground_ = std::move(ground);
   fleet_ = std::make_unique<FleetExecution>(grid_->grid, std::vector<std::string>(), Plan(),
                                             options, now);
   const ros::WallTime stamp = ros::WallTime::now();
@@ -125,6 +119,19 @@ void FleetServer::roll(double now) {
   startTasks();
   joinReporting(now);
   ROS_INFO("conducting a rolling fleet, steps of %g s", options.step_sec);
+}
+
+/// @throws OptionError for what does not go together on such a ground.
+FleetOptions FleetServer::rollingOptions(const RollingGround& ground) const {
+  FleetOptions options = options_.fleet;
+  options.rolling = true;
+  options.step_sec = stepDurationOf(options_.server.goal, ground.longest_step_m);
+  options.moves = ground.moves;
+  if (!ground.discs && options_.robot_radius_m > 0) {
+    options.release = releaseFraction(options_.robot_radius_m, ground.longest_step_m);
+  }
+  requireValid(options);
+  return options;
 }
 
 void FleetServer::startTasks() {
@@ -163,17 +170,24 @@ std::string FleetServer::tryToJoin(const RobotTask& task, const Known& known) {
   std::optional<Cell> place = known.place;
   if (!place && isFinite(task.start)) place = placeOf(task.start);
   if (!place) return "its place is not known, as its progress has no pose";
-  const Vertex at = grid_->grid->vertexAt(*place);
-  if (at == kNoVertex) {
-    return "it is in cell " + grid_->geometry.describeWithMetres(*place) +
-           ", which is not free on the map";
-  }
+  const std::optional<Vertex> at = ground_->vertexUnder(*place);
+  if (!at) return "it is in cell " + grid_->geometry.describeWithMetres(*place) + whyNot(*place);
   const std::string name = rosNameOf(id);
   for (std::uint32_t robot = 0; robot < fleet_->robots(); ++robot) {
     if (rosNameOf(fleet_->id(robot)) != name) continue;
     return "its topic " + name + "/route is that of robot " + quote(fleet_->id(robot));
   }
-  return fleet_->add(id, at, kNoVertex);
+  return fleet_->add(id, *at, kNoVertex);
+}
+
+/// Why a robot in a cell stands on no vertex.
+std::string FleetServer::whyNot(Cell place) const {
+  if (!ground_->discs) return ", which is not free on the map";
+  const std::optional<Vertex> near = ground_->vertexFor(place);
+  if (!near) return ", which no vertex of the planning graph is near to";
+  return ", not on a vertex of the planning graph; the nearest is cell " +
+         grid_->geometry.describeWithMetres(grid_->grid->cellOf(*near)) +
+         " (a plan with that goal brings it there)";
 }
 
 MoveTask FleetServer::readTask(const RobotTask& task, std::size_t index, bool is_twice,
@@ -215,10 +229,19 @@ MoveTask FleetServer::readTask(const RobotTask& task, std::size_t index, bool is
     return fail(Outcome::kOutsideMap, "its goal (" + numeral(point->x) + ", " + numeral(point->y) +
                                           ") m lies outside of the map");
   }
-  read.goal = grid_->grid->vertexAt(cell);
-  if (read.goal != kNoVertex) return read;
-  return fail(Outcome::kBlockedCell,
-              "its goal " + grid_->geometry.describeWithMetres(cell) + " is not free on the map");
+  const std::optional<Vertex> goal = ground_->vertexFor(cell);
+  if (goal) {
+    read.goal = *goal;
+    return read;
+  }
+  const std::string where = "its goal " + grid_->geometry.describeWithMetres(cell);
+  if (!ground_->discs || ground_->discs->raster().blocked[ground_->discs->raster().indexOf(cell)]) {
+    return fail(Outcome::kBlockedCell, where + " is not free on the map");
+  }
+  return fail(Outcome::kUnreachableGoal,
+              where + " has no vertex of the planning graph within " +
+                  inMetres(ground_->discs->snapDistance()) +
+                  " by a straight way on which a robot fits (parameter ~snap_distance)");
 }
 
 /// Why a robot that a task names cannot be sent anywhere. One that reports joins.
@@ -246,7 +269,7 @@ std::optional<RobotFault> FleetServer::faultOfRobot(const RobotTask& task, const
   if (task.start.header.frame_id.empty()) return std::nullopt;
   const std::optional<Cell> start = isFinite(task.start) ? placeOf(task.start) : std::nullopt;
   if (!start) return makeFault(name, Outcome::kInvalidPose, who + ": its start is no place");
-  const Vertex at = grid_->grid->vertexAt(*start);
+  const Vertex at = ground_->vertexFor(*start).value_or(kNoVertex);
   const auto robot = fleet_->find(task.robot_id);
   if (!robot || fleet_->isPromised(*robot, at)) return std::nullopt;
   return makeFault(

@@ -122,6 +122,7 @@ void FleetServer::takeUpAgain(double now) {
   } catch (const std::exception& error) {
     kept_may_exist_ = false;
     fleet_.reset();
+    ground_.reset();
     discs_.reset();
     left_out_.clear();
     faults_.clear();
@@ -135,8 +136,19 @@ void FleetServer::takeUpFleet(const FleetSnapshot& kept, double now) {
   const auto map = maps_.choose(std::make_shared<const nav_msgs::OccupancyGrid>());
   if (!kept.part) {
     const GoalOptions& goal = options_.server.goal;
-    const PlanningGrid grid = makePlanningGrid(*map, goal.occupancy, goal.ignore_specks);
-    fleet_ = std::make_unique<FleetExecution>(grid.grid, kept, options_.fleet, now);
+    std::optional<RollingGround> ground;
+    FleetOptions options = options_.fleet;
+    if (kept.rolling) {
+      ground = makeRollingGround(*map, goal);
+      options.moves = ground->moves;
+    }
+    const PlanningGrid grid =
+        ground ? ground->grid : makePlanningGrid(*map, goal.occupancy, goal.ignore_specks);
+    FleetSnapshot of_vertices = kept;
+    // As cells of a map, which a planning graph knows little of.
+    if (options.moves) of_vertices.blocked.clear();
+    fleet_ = std::make_unique<FleetExecution>(grid.grid, of_vertices, options, now);
+    ground_ = std::move(ground);
     changeGrid(grid);
     for (const Cell cell : kept.blocked) blocked_.insert(grid_->geometry.indexOf(cell));
     return;

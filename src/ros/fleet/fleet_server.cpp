@@ -379,6 +379,7 @@ void FleetServer::end(const ExecutePlanResult& result) {
   moves_.reset();
   tasks_.reset();
   replanner_of_windows_.reset();
+  ground_.reset();
   fleet_.reset();
   plan_id_.clear();
   index_.clear();

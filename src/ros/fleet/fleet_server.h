@@ -29,6 +29,7 @@
 #include "ros/fleet/disc_parts.h"
 #include "ros/fleet/move_action.h"
 #include "ros/fleet/move_goals.h"
+#include "ros/fleet/rolling_ground.h"
 #include "split_mapf/fleet/fleet_execution.h"
 #include "split_mapf/fleet/fleet_tasks.h"
 #include "split_mapf/fleet/rolling_replan.h"
@@ -136,6 +137,7 @@ class FleetServer {
   void takeMove(MoveAction::Goal goal);
   void takeMoveCancel(const MoveAction::Goal& goal);
   void roll(double now);
+  FleetOptions rollingOptions(const RollingGround& ground) const;
   void startTasks();
   bool hasNewMap() const;
   void joinReporting(double now);
@@ -161,6 +163,7 @@ class FleetServer {
   std::string tryToAdd(const RobotTask& task);
   std::string tryToEnlist(const RobotTask& task, const Known& known);
   std::string tryToJoin(const RobotTask& task, const Known& known);
+  std::string whyNot(Cell place) const;
 
   // As time goes by.
   void tick();
@@ -209,6 +212,7 @@ class FleetServer {
   std::set<std::uint32_t> blocked_;  ///< cells, as in RobotPath.cells
   std::map<std::string, Known> known_;
   // Of a rolling fleet, null of another one.
+  std::optional<RollingGround> ground_;
   std::shared_ptr<RollingReplanner> replanner_of_windows_;
   std::unique_ptr<FleetTasks> tasks_;
   std::unique_ptr<MoveGoals> moves_;

@@ -79,6 +79,8 @@ std::string FleetServer::tryToAdd(const RobotTask& task) {
       roll(now());
     } catch (const GoalError& error) {
       return std::string("there is no fleet to join: ") + error.what();
+    } catch (const InputError& error) {
+      return std::string("there is no fleet to join: ") + error.what();
     }
   }
   if (waiting_) return "a plan waits for its robots";

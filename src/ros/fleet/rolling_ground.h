@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include <nav_msgs/OccupancyGrid.h>
+
+#include "ros/convert/options_loader.h"
+#include "split_mapf/core/close_moves.h"
+#include "split_mapf/core/grid.h"
+#include "split_mapf/roadmap/disc_ground.h"
+#include "split_mapf/ros/planning_grid.h"
+
+namespace split_mapf {
+
+/// What a rolling fleet drives on: the cells of a map where robots fit into them, else its planning
+/// graph.
+struct RollingGround {
+  PlanningGrid grid;
+  std::shared_ptr<const DiscGround> discs;  ///< of a planning graph; else null
+  std::shared_ptr<const CloseMoves> moves;  ///< likewise
+  double longest_step_m = 0;
+
+  /// The vertex on which a robot counts as standing: that of its cell; on a planning graph one from
+  /// which it is off by half of the clearance at most, so that it still keeps apart from all
+  /// others.
+  std::optional<Vertex> vertexUnder(Cell cell) const;
+  /// The vertex that a goal in a cell stands for: on a planning graph the nearest within the snap
+  /// distance, by a straight way on which a robot fits.
+  std::optional<Vertex> vertexFor(Cell cell) const;
+};
+
+/// Whether robots do not fit into cells of this size, or other cells are asked for.
+bool needsPlanningGraph(const RoadmapOptions& options, double resolution_m);
+
+/// @throws GoalError (INVALID_MAP), OptionError as makePlanningGrid() and DiscGround. Cost: as
+/// those.
+RollingGround makeRollingGround(const nav_msgs::OccupancyGrid& map, const GoalOptions& options);
+
+}  // namespace split_mapf
