@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "parallel/thread_budget.h"
@@ -121,6 +122,39 @@ TEST(RollingGround, AStepThatIsLostAtOnceCostsMoreThanOneThatIsLostLater) {
   for (std::uint32_t waits = 0; waits < 10; ++waits) {
     EXPECT_EQ(itinerary.lossOf(waiting_after(waits), 10, reached), rolling::kStepCost)
         << "what an answer tells is steps";
+  }
+}
+
+std::uint32_t turnsOf(const Grid& grid, const Path& path) {
+  std::uint32_t turns = 0;
+  Cell last{0, 0};
+  for (std::size_t t = 1; t < path.size(); ++t) {
+    const Cell a = grid.cellOf(path[t - 1]);
+    const Cell b = grid.cellOf(path[t]);
+    if (a == b) continue;
+    const Cell move{b.x - a.x, b.y - a.y};
+    if (last != Cell{0, 0} && last != move) ++turns;
+    last = move;
+  }
+  return turns;
+}
+
+/// Where nobody is delayed nothing was planned again, and steps were drawn among equally good ones.
+TEST(RollingGround, ARobotThatIsNotDelayedTurnsAsSeldomAsItCan) {
+  const GridPtr grid = gridFromAscii(std::vector<std::string>(40, std::string(40, '.')));
+  RollOptions options;
+  options.steps = 100;
+  options.warmup = 0;
+  options.rolling.window = 20;
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    options.rolling.seed = seed;
+    RollTask task;
+    task.starts = {0};
+    task.goals = {{40 * 40 - 1}};
+    const RollReport report = roll(grid, task, options);
+    ASSERT_EQ(report.reached[0].size(), 1U);
+    EXPECT_EQ(report.reached[0].front().step, 78U);
+    EXPECT_EQ(turnsOf(*grid, report.paths[0]), 1U) << "seed " << seed;
   }
 }
 

@@ -106,9 +106,10 @@ void StepMaker::sortChoices(Frame& frame, const StepWish& wish, const WindowTabl
         key = 3;
     }
     if (slot == wish.wanted) key = 0;
-    // Of equally good places rather one where nobody stands.
+    // Of equally good places rather one where nobody stands, and then the one straight on.
     const bool taken = slot != kWait && robot_at_[endOf(wish, slot)] != kNoRobot;
-    key = (key << 1U | (taken ? 1U : 0U)) << 8U | (random & 0xffU);
+    const bool turns = slot != kWait && slot != wish.straight;
+    key = (key << 2U | (taken ? 2U : 0U) | (turns ? 1U : 0U)) << 8U | (random & 0xffU);
     random >>= 8U;
     std::uint32_t place = frame.count++;
     for (; place > 0 && keys[place - 1] > key; --place) {

@@ -12,6 +12,7 @@ struct StepWish {
   bool bound = false;                   ///< takes the slot `wanted`, whatever others want
   Slot wanted = MoveGraph::kNoSlot;     ///< tried first, kNoSlot: what the slope says
   const std::uint8_t* slope = nullptr;  ///< to its goal; nullptr: idle, it would rather stay
+  Slot straight = kWait;                ///< goes on as it came; kWait: none does
 
   bool isIdle() const { return slope == nullptr; }
 };

@@ -136,6 +136,7 @@ void WindowBase::wish(const std::vector<WindowStart>& starts, std::uint32_t robo
                        (wish.wanted == kWait ? wish.at : prefix[t + 1]) == known[t + 1];
     return;
   }
+  wish.straight = straightOn(window.tracks[robot], t);
   if (!on_known_[robot] || t + 1 >= known.size()) {
     on_known_[robot] = false;
     return;
@@ -144,6 +145,13 @@ void WindowBase::wish(const std::vector<WindowStart>& starts, std::uint32_t robo
   const bool open = slot == kWait || (slot < kSlots && (table_[wish.at].open >> slot & 1U) != 0);
   if (open) wish.wanted = slot;
   on_known_[robot] = open;
+}
+
+/// The slot by which the track goes on at step t as it came.
+Slot WindowBase::straightOn(const Track& track, std::uint32_t t) const {
+  while (t > 0 && track.slot[t - 1] == kWait) --t;
+  if (t == 0) return kWait;
+  return graph_[track.at[t]].straight[graph_[track.at[t - 1]].back[track.slot[t - 1]]];
 }
 
 bool WindowBase::keepKnown(std::uint32_t t, FleetWindow& window) {

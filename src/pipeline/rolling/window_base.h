@@ -44,6 +44,7 @@ class WindowBase {
   bool keepKnown(std::uint32_t t, FleetWindow& window);
   void wish(const std::vector<WindowStart>& starts, std::uint32_t robot, std::uint32_t t,
             const FleetWindow& window);
+  Slot straightOn(const Track& track, std::uint32_t t) const;
   void advance(std::uint32_t robot, std::uint32_t t, Slot slot, FleetWindow& window);
 
   const MoveGraph& graph_;
