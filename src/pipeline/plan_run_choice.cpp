@@ -101,8 +101,9 @@ void PlanRun::raiseBound(std::uint64_t bound, const std::string& by) {
 }
 
 std::map<std::string, std::string> PlanRun::valuesOf(const std::string& solver) const {
-  const bool is_crowd = !splits() && instance_.robots() >= kCrowd;
-  if (!step_table_.isTooLarge() && !is_crowd) return {};
+  // Polishing the loose plan of a crowd takes as long as finding it.
+  const bool is_dear = !splits() && instance_.robots() >= kCrowd && traits_.at(solver).loose_plans;
+  if (!step_table_.isTooLarge() && !is_dear) return {};
   return solvers_.info(solver).lean_values;
 }
 

@@ -35,11 +35,12 @@ SolveResult stay(const Instance& instance, const Deadline&) {
 }
 
 /// The values that `auto` calls its last resort with, once its choice has given up.
-Values valuesOfLastResort(std::uint32_t robots) {
+Values valuesOfLastResort(std::uint32_t robots, bool loose_plans = true) {
   const auto give_up = [](const Instance&, const Deadline&) { return SolveResult(); };
   SolverTraits complete;
   complete.complete = true;
   complete.fallback_rank = 1;
+  complete.loose_plans = loose_plans;
   SolverInfo last = test::fakeSolver("lacam", stay, complete);
   last.options = {{"polish", "3", "passes over the plan"}};
   last.lean_values = {{"polish", "0"}};
@@ -60,6 +61,7 @@ Values valuesOfLastResort(std::uint32_t robots) {
 TEST(Crowd, SawItsFirstPlanOnlyOnceItWasPolished) {
   EXPECT_EQ(valuesOfLastResort(4100), (Values{{"polish", "0"}}));
   EXPECT_EQ(valuesOfLastResort(100), Values());
+  EXPECT_EQ(valuesOfLastResort(4100, false), Values()) << "a good plan is worth its polish";
 }
 
 }  // namespace
