@@ -26,6 +26,7 @@ endif()
 split_mapf_compile_options(split_mapf_core)
 
 include(cmake/ilp.cmake)
+include(cmake/workers.cmake)
 
 file(GLOB SPLIT_MAPF_TOOL_SOURCES CONFIGURE_DEPENDS src/tool/*.cpp)
 split_mapf_in_units(split_mapf SPLIT_MAPF_TOOL_SOURCES)
@@ -33,7 +34,7 @@ add_executable(split_mapf ${SPLIT_MAPF_TOOL_SOURCES})
 target_include_directories(split_mapf PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
 target_compile_definitions(split_mapf PRIVATE SPLIT_MAPF_VERSION="${PROJECT_VERSION}")
 target_link_libraries(split_mapf PRIVATE
-  split_mapf_available_solvers Boost::program_options nlohmann_json::nlohmann_json)
+  split_mapf_available_solvers split_mapf_workers Boost::program_options nlohmann_json::nlohmann_json)
 split_mapf_compile_options(split_mapf)
 
 if(NOT SPLIT_MAPF_ROS)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Checks who includes and links whom, as docs and headers promise: the rooms below, each of which may
 #   include what its line names. Only ros, rviz and node know ROS, only rviz knows Qt and Ogre, only one
-#   wrapper in the ILP solver knows GLPK, only one in a node MQTT, public headers include no private
+#   wrapper in the ILP solver knows GLPK, only one in a node MQTT, only one in workers NATS, public headers include no private
 #   ones, and the core library links none of them.
 # The checker first has to find violations that are planted in small trees of its own.
 #
@@ -30,7 +30,8 @@ declare -rA allowed=(
   [improve]="$searches split portfolio"
   [pipeline]="$files $searches split portfolio improve"
   [fleet]="$files $searches split portfolio improve pipeline"
-  [tool]="$planning"
+  [workers]="$files $searches split portfolio improve pipeline"
+  [tool]="$planning workers"
   [python]="$planning"
   [ros/convert]="$planning"
   [ros/client]='core'
@@ -99,6 +100,10 @@ judge_include() {
   fi
   if [[ $header == glpk.h && $place != src/solver/ilp/glpk_model.cpp:* ]]; then
     echo "$place: only the wrapper src/solver/ilp/glpk_model.cpp may include $header"
+    return
+  fi
+  if [[ $header == nats/nats.h && $place != src/workers/nats_link.cpp:* ]]; then
+    echo "$place: only the wrapper src/workers/nats_link.cpp may include $header"
     return
   fi
   if [[ $header =~ ^(rviz/|Ogre|Q[A-Z]) && $3 == \<* && $layer != rviz ]]; then
@@ -245,6 +250,8 @@ test_the_checker() {
   require_found src/solver/room.cpp '#include "glpk.h"'
   require_found src/solver/ilp/master.cpp '#include <glpk.h>'
   require_found src/ros/server/room.cpp '#include <mosquitto.h>'
+  require_found src/workers/room.cpp '#include <nats/nats.h>'
+  require_found src/pipeline/room.cpp '#include "workers/private_room.h"'
   require_found include/split_mapf/core/room.h '#include "core/private_room.h"'
   require_found src/stray.cpp '#include <vector>'
   require_found cmake/libraries.cmake 'target_link_libraries(split_mapf_core PUBLIC ${catkin_LIBRARIES})'

@@ -18,6 +18,11 @@ void ByteWriter::number(std::uint64_t value) {
   bytes_.push_back(static_cast<char>(value));
 }
 
+void ByteWriter::sizedText(const std::string& bytes) {
+  number(bytes.size());
+  bytes_ += bytes;
+}
+
 void ByteWriter::numbers(const std::vector<std::uint32_t>& values) {
   number(values.size());
   for (const std::uint32_t value : values) number(value);
@@ -42,22 +47,39 @@ void ByteReader::expectText(const std::string& text) {
   at_ += text.size();
 }
 
-std::uint32_t ByteReader::number(const std::string& name, std::uint32_t most) {
+std::uint64_t ByteReader::read(const std::string& name, std::uint64_t most, unsigned most_bytes) {
   std::uint64_t value = 0;
   std::size_t next = at_;
-  for (unsigned shift = 0;; shift += kBitsAByte, ++next) {
+  for (unsigned byte_of_number = 1;; ++byte_of_number, ++next) {
     if (next == bytes_.size()) fail("the bytes end where " + name + " is expected");
     const auto byte = static_cast<std::uint8_t>(bytes_[next]);
-    value |= std::uint64_t{byte & (kMore - 1U)} << shift;
+    value |= std::uint64_t{byte & (kMore - 1U)} << kBitsAByte * (byte_of_number - 1);
     if (value > most) {
       fail(name + " is " + std::to_string(value) + ", at most " + std::to_string(most) +
            " is expected");
     }
     if ((byte & kMore) == 0) break;
-    if (shift > 3 * kBitsAByte) fail(name + " takes more than 5 bytes");
+    if (byte_of_number == most_bytes) {
+      fail(name + " takes more than " + std::to_string(most_bytes) + " bytes");
+    }
   }
   at_ = next + 1;
-  return static_cast<std::uint32_t>(value);
+  return value;
+}
+
+std::uint32_t ByteReader::number(const std::string& name, std::uint32_t most) {
+  return static_cast<std::uint32_t>(read(name, most, 5));
+}
+
+std::uint64_t ByteReader::longNumber(const std::string& name) {
+  return read(name, ~std::uint64_t{0}, 10);
+}
+
+std::string ByteReader::sizedText(const std::string& name) {
+  const std::size_t size = count("the length of " + name);
+  std::string text = bytes_.substr(at_, size);
+  at_ += size;
+  return text;
 }
 
 std::uint32_t ByteReader::count(const std::string& name) {

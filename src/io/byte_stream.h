@@ -14,6 +14,8 @@ class ByteWriter {
  public:
   void text(const std::string& bytes) { bytes_ += bytes; }
   void number(std::uint64_t value);
+  /// How many bytes, then these.
+  void sizedText(const std::string& bytes);
   /// How many there are, then each.
   void numbers(const std::vector<std::uint32_t>& values);
   /// Eight a byte, the lowest first.
@@ -34,6 +36,9 @@ class ByteReader {
   void expectText(const std::string& text);
   /// @param name  for messages. @param most  greater ones are refused.
   std::uint32_t number(const std::string& name, std::uint32_t most = 0xffffffffU);
+  /// One of up to 64 bits.
+  std::uint64_t longNumber(const std::string& name);
+  std::string sizedText(const std::string& name);
   std::vector<std::uint32_t> numbers(const std::string& name, std::uint32_t most);
   /// How many of something follow that takes a byte each at least.
   std::uint32_t count(const std::string& name);
@@ -45,6 +50,7 @@ class ByteReader {
   [[noreturn]] void fail(const std::string& message) const;
 
  private:
+  std::uint64_t read(const std::string& name, std::uint64_t most, unsigned most_bytes);
   std::size_t left() const { return bytes_.size() - at_; }
 
   const std::string& bytes_;

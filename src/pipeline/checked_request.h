@@ -17,6 +17,7 @@ struct CheckedRequest {
   /// Nothing is done to the first plan: no refinement, no straightening, no look at what the other
   /// objective finds.
   bool first_plan_only = false;
+  PieceWorkers* workers = nullptr;  ///< processes elsewhere that solve pieces with us; null: none
 };
 
 /// Reads a request. @throws UnknownSolverError, SplitSpecError, OptionError.

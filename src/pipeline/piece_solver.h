@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pipeline/checked_request.h"
+#include "pipeline/piece_race.h"
 #include "pipeline/run_log.h"
 #include "split_mapf/core/plan_report.h"
 #include "split_mapf/parallel/executor.h"
@@ -21,7 +22,8 @@ struct PieceTask {
   std::string solver;  ///< another one than the request's; empty: that one
 };
 
-/// Solves pieces in worker threads, longest expected first.
+/// Solves pieces in worker threads, longest expected first; and in other processes, where there are
+/// such.
 class PieceSolver {
  public:
   PieceSolver(const CheckedRequest& request, const SolverRegistry& solvers, Executor& executor,
@@ -29,8 +31,8 @@ class PieceSolver {
       : request_(request), solvers_(solvers), executor_(executor), deadline_(deadline), log_(log) {}
 
   /// One result a task, in their order; a row a task is appended to `rows`. Results do not depend
-  /// on the number of threads. A time-out or a lack of memory of one piece stops the others, as it
-  /// makes them useless; one that merely has no plan does not.
+  /// on the number of threads, nor on who solves them. A time-out or a lack of memory of one piece
+  /// stops the others, as it makes them useless; one that merely has no plan does not.
   std::vector<SolveResult> solve(const std::vector<PieceTask>& tasks,
                                  std::vector<SubproblemReport>& rows);
 
@@ -40,8 +42,16 @@ class PieceSolver {
  private:
   /// Where there are fewer tasks than threads a task may use several.
   std::uint32_t threadsEach(std::size_t tasks) const;
-  SolveResult solveOne(const PieceTask& task, std::uint32_t threads, const Deadline& deadline,
-                       SubproblemReport& row) const;
+  PieceRace::Outcome solveOne(const PieceTask& task, std::uint32_t threads,
+                              const Deadline& deadline) const;
+  void askWorkers(const std::vector<PieceTask>& tasks, PieceRace& race) const;
+  /// The tasks that take so long that a journey pays, but those that threads here begin at once;
+  /// longest expected first.
+  std::vector<std::size_t> worthAsking(const std::vector<PieceTask>& tasks) const;
+  const std::string& solverOf(const PieceTask& task) const;
+  SolverOptions optionsFor(const PieceTask& task) const;
+  /// What is known before it is solved.
+  SubproblemReport rowOf(const PieceTask& task) const;
 
   const CheckedRequest& request_;
   const SolverRegistry& solvers_;

@@ -36,6 +36,7 @@ PlanReport Planner::plan(const Instance& instance, const PlanRequest& request,
                          const Deadline& deadline, const PlanListener& listener) const {
   try {
     CheckedRequest checked = check(request, solvers_, splitters_);
+    checked.workers = workers_;
     if (BandRun::isFor(instance, checked, solvers_)) {
       return BandRun(instance, std::move(checked), solvers_, executor_, deadline, listener).run();
     }

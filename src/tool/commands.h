@@ -32,5 +32,6 @@ ExitCode runBench(const Call& call);
 ExitCode runSimulate(const Call& call);
 ExitCode runRoll(const Call& call);
 ExitCode runSolvers(const Call& call);
+ExitCode runWorker(const Call& call);
 
 }  // namespace split_mapf::tool

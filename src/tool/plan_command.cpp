@@ -10,6 +10,7 @@
 #include <boost/algorithm/string/join.hpp>
 
 #include "io/file_bytes.h"
+#include "solver/available/available_solvers.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/wording.h"
@@ -27,6 +28,7 @@
 #include "tool/progress_line.h"
 #include "tool/robot_options.h"
 #include "tool/stop_signals.h"
+#include "workers/workers.h"
 
 namespace split_mapf::tool {
 namespace {
@@ -90,6 +92,7 @@ class PlanCall {
         begin_of_call_(begin_of_call),
         stop_(catchStopSignals()),
         executor_(startExecutor(options_.request.threads)) {
+    if (!options_.workers.empty()) workers_ = connectWorkers(options_.workers, availableSolvers());
     if (options_.progress) progress_.emplace(begin_of_call);
     if (options_.memory_limit_mib) limitMemory(*options_.memory_limit_mib);
   }
@@ -99,6 +102,7 @@ class PlanCall {
     liftMemoryLimit();
     if (progress_) progress_->finish();
     write(report);
+    if (workers_ && !options_.quiet) tellOfWorkers();
     if (!report.plan) {
       std::cerr << "split_mapf: " << toString(report.termination) << ": " << report.message << "\n";
     } else if (!options_.quiet && options_.output_file != "-") {
@@ -109,7 +113,7 @@ class PlanCall {
 
  private:
   PlanReport plan() {
-    const Planner planner(methods_.solvers, *executor_, methods_.splitters);
+    const Planner planner(methods_.solvers, *executor_, methods_.splitters, workers_.get());
     planner.requireValid(options_.request);  // before files are read for nothing
     if (std::optional<PlanReport> end = readFiles()) return std::move(*end);
     if (discs_) {
@@ -219,11 +223,22 @@ class PlanCall {
                                options_.robots.robot_speed_mps, report));
   }
 
+  void tellOfWorkers() const {
+    const std::string trouble = workers_->trouble();
+    const RemoteWorkers::Tally tally = workers_->tally();
+    std::cerr << "split_mapf: workers: "
+              << (trouble.empty() ? counted(tally.asked, "piece") + " asked, " +
+                                        counted(tally.answered, "answer")
+                                  : trouble + "; what they did not answer was solved here")
+              << "\n";
+  }
+
   PlanOptions options_;
   const Methods methods_;
   Deadline::Clock::time_point begin_of_call_;
   std::shared_ptr<const StopFlag> stop_;
   std::unique_ptr<Executor> executor_;
+  std::unique_ptr<RemoteWorkers> workers_;  ///< null: none are asked for
   std::optional<ProgressLine> progress_;
   std::optional<DiscFiles> discs_;      ///< of robots that have size
   std::optional<DiscProblem> problem_;  ///< likewise

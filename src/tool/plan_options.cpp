@@ -49,6 +49,10 @@ void declarePlanOptions(CommandLine& line) {
              "memory for distance tables; the plan does not depend on it (a quarter of "
              "--memory-limit, or of the machine's)");
   line.offer("threads", "N", "worker threads (one a processor)");
+  line.offer(
+      "workers", "URL",
+      "ask the workers at this NATS server, nats://[USER:PASSWORD@]HOST[:PORT] or tls://..., "
+      "to help with the pieces of a split; the plan is the same");
   line.offer("seed", "N", "all randomness (" + std::to_string(defaults.seed) + ")");
   line.offer("refine", "SECONDS",
              "share of the time limit that may go into improving a found plan (" +
@@ -101,6 +105,7 @@ PlanOptions readPlanOptions(const CommandLine& line) {
   } else if (options.memory_limit_mib) {
     request.table_bytes = *options.memory_limit_mib * kMebibyte / 4;
   }
+  options.workers = line.text("workers", "");
   options.output_file = line.text("output", "");
   options.write_better = line.has("write-better");
   if (options.write_better && (options.output_file.empty() || options.output_file == "-")) {

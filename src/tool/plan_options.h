@@ -22,6 +22,7 @@ struct PlanOptions {
   bool on_roadmap = false;
   PlanRequest request;  ///< `threads` is set
   std::optional<std::uint64_t> memory_limit_mib;
+  std::string workers;                    ///< the URL of their server; empty: none
   PathForm path_form = PathForm::kCells;  ///< of the output
   std::string output_file;                ///< empty: none; "-": standard output
   bool write_better = false;              ///< the output file is written with each better plan

@@ -29,6 +29,7 @@ const std::vector<Command>& commands() {
       {"roadmap", "build the planning graph of robots that have size", runRoadmap},
       {"bench", "plan many combinations and write a CSV table", runBench},
       {"solvers", "list solvers and their options", runSolvers},
+      {"worker", "solve pieces for calls on other machines", runWorker},
   };
   return list;
 }

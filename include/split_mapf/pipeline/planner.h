@@ -4,6 +4,7 @@
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan_report.h"
 #include "split_mapf/parallel/executor.h"
+#include "split_mapf/pipeline/piece_workers.h"
 #include "split_mapf/pipeline/plan_listener.h"
 #include "split_mapf/pipeline/plan_request.h"
 #include "split_mapf/solver/registry.h"
@@ -15,10 +16,11 @@ namespace split_mapf {
 /// place where the stages meet. Thread-safe: several calls may share one executor.
 class Planner {
  public:
-  /// @pre all outlive the planner.
+  /// @param workers  processes elsewhere that help with the pieces of splits; null: none. The plan
+  /// does not depend on them. @pre all outlive the planner.
   Planner(const SolverRegistry& solvers, Executor& executor,
-          const SplitterRegistry& splitters = builtinSplitters())
-      : solvers_(solvers), executor_(executor), splitters_(splitters) {}
+          const SplitterRegistry& splitters = builtinSplitters(), PieceWorkers* workers = nullptr)
+      : solvers_(solvers), executor_(executor), splitters_(splitters), workers_(workers) {}
 
   /// Checks a request before any work. @throws UnknownSolverError, SplitSpecError, OptionError.
   void requireValid(const PlanRequest& request) const;
@@ -33,6 +35,7 @@ class Planner {
   const SolverRegistry& solvers_;
   Executor& executor_;
   const SplitterRegistry& splitters_;
+  PieceWorkers* const workers_;
 };
 
 }  // namespace split_mapf

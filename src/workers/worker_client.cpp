@@ -1,0 +1,201 @@
+#include "workers/worker_client.h"
+
+#include <chrono>
+#include <random>
+#include <utility>
+
+#include "split_mapf/core/error.h"
+#include "split_mapf/pipeline/piece_messages.h"
+
+namespace split_mapf {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kConnectSec = 0.5;
+constexpr std::chrono::milliseconds kTryAgain(1000);
+// Who has just started waits so long for the server before its first pieces are given out.
+constexpr std::chrono::milliseconds kFirstWait(200);
+constexpr double kPollSec = 0.2;
+constexpr std::chrono::milliseconds kSignOfLife(1000);
+
+/// A name that no other client has; plans do not depend on it.
+std::string drawName() {
+  std::random_device device;
+  std::string name;
+  for (int i = 0; i < 4; ++i) name += std::to_string(device()) + (i < 3 ? "-" : "");
+  return name;
+}
+
+}  // namespace
+
+/// Questions that are open.
+class WorkerClient::OpenBatch : public PieceWorkers::Batch {
+ public:
+  OpenBatch(WorkerClient& client, std::shared_ptr<NatsLink> link, std::uint64_t batch)
+      : client_(client), link_(std::move(link)), batch_(batch) {}
+  ~OpenBatch() override {
+    client_.end(batch_);
+    link_->takeOutOfQueue(piecesOf(client_.client_, batch_));
+    link_->say(signsOf(client_.client_), "stop " + std::to_string(batch_) + ".>");
+  }
+  OpenBatch(const OpenBatch&) = delete;
+  OpenBatch& operator=(const OpenBatch&) = delete;
+
+  void withdraw(std::size_t question) override {
+    const PieceAddress address{client_.client_, batch_, question};
+    link_->takeOutOfQueue(address.piece());
+    link_->say(signsOf(client_.client_), "stop " + address.name());
+  }
+
+ private:
+  WorkerClient& client_;
+  const std::shared_ptr<NatsLink> link_;
+  const std::uint64_t batch_;
+};
+
+WorkerClient::WorkerClient(std::string url, const SolverRegistry& solvers)
+    : url_(std::move(url)), solvers_(solvers), client_(drawName()), thread_([this] { run(); }) {}
+
+WorkerClient::~WorkerClient() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    closing_ = true;
+    if (link_) link_->close();
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+bool WorkerClient::know(const std::string& solver) const {
+  return solvers_.traits().count(solver) > 0;
+}
+
+RemoteWorkers::Tally WorkerClient::tally() const { return {asked_, answered_}; }
+
+std::string WorkerClient::trouble() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return trouble_;
+}
+
+std::unique_ptr<PieceWorkers::Batch> WorkerClient::ask(const std::vector<PieceQuestion>& questions,
+                                                       Listener listener) {
+  const std::shared_ptr<NatsLink> link = this->link();
+  if (!link) return nullptr;
+  const auto told = std::make_shared<Told>();
+  told->questions = questions.size();
+  told->listener = std::move(listener);
+  PieceAddress address{client_, 0, 0};
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    address.batch = ++last_batch_;
+    batches_[address.batch] = told;
+  }
+  auto batch = std::make_unique<OpenBatch>(*this, link, address.batch);
+  link->say(signsOf(client_), "alive");
+  for (; address.question < questions.size(); ++address.question) {
+    const std::string bytes = toBytes(questions[address.question]);
+    if (bytes.size() <= link->mostBytes() && link->say(address.piece(), bytes)) ++asked_;
+  }
+  return batch;
+}
+
+void WorkerClient::end(std::uint64_t batch) {
+  std::shared_ptr<Told> told;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    told = std::move(batches_[batch]);
+    batches_.erase(batch);
+  }
+  const std::lock_guard<std::mutex> lock(told->mutex);
+  told->ended = true;
+}
+
+std::shared_ptr<NatsLink> WorkerClient::link() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait_for(lock, kFirstWait, [this] { return tried_; });
+  return link_;
+}
+
+void WorkerClient::run() {
+  while (const std::shared_ptr<NatsLink> link = connect()) {
+    try {
+      listen(link);
+    } catch (const LinkError& error) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      trouble_ = error.what();
+      link_.reset();
+    }
+  }
+}
+
+std::shared_ptr<NatsLink> WorkerClient::connect() {
+  for (;;) {
+    std::shared_ptr<NatsLink> made;
+    std::string trouble;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (closing_) return nullptr;
+    }
+    try {
+      made = std::make_shared<NatsLink>(url_, kConnectSec);
+      made->makeQueue();
+    } catch (const LinkError& error) {
+      made.reset();
+      trouble = error.what();
+    }
+    std::unique_lock<std::mutex> lock(mutex_);
+    trouble_ = trouble;
+    if (made) return made;
+    tried_ = true;
+    changed_.notify_all();
+    changed_.wait_for(lock, kTryAgain, [this] { return closing_; });
+    if (closing_) return nullptr;
+  }
+}
+
+void WorkerClient::listen(const std::shared_ptr<NatsLink>& link) {
+  const std::unique_ptr<LinkReader> answers = link->listen(answersTo(client_));
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    link_ = link;
+    tried_ = true;
+  }
+  changed_.notify_all();
+  Clock::time_point last_sign = Clock::now();
+  for (;;) {
+    if (const auto message = answers->next(kPollSec)) take(*message);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (closing_) return;
+    if (batches_.empty() || Clock::now() - last_sign < kSignOfLife) continue;
+    last_sign = Clock::now();
+    link->say(signsOf(client_), "alive");
+  }
+}
+
+void WorkerClient::take(const LinkMessage& message) {
+  const std::optional<PieceAddress> address = addressOf(message.subject());
+  if (!address) return;
+  std::shared_ptr<Told> told;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto found = batches_.find(address->batch);
+    if (found == batches_.end()) return;
+    told = found->second;
+  }
+  const std::lock_guard<std::mutex> lock(told->mutex);
+  if (told->ended || address->question >= told->questions) return;
+  const std::string bytes = message.bytes();
+  if (bytes.empty()) return told->listener.begun(address->question);
+  ++answered_;
+  try {
+    told->listener.answered(address->question, answerFromBytes(bytes));
+  } catch (const InputError&) {
+    // Worth no more than none: the piece is solved here.
+    PieceAnswer broken;
+    broken.result.termination = Termination::kCancelled;
+    told->listener.answered(address->question, std::move(broken));
+  }
+}
+
+}  // namespace split_mapf

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "workers/nats_link.h"
+#include "workers/piece_address.h"
+#include "workers/workers.h"
+
+namespace split_mapf {
+
+/// Asks workers over NATS. Questions wait in the server's queue; answers come back on a subject of
+/// this client. A thread of its own listens, and tells workers that the client is alive.
+class WorkerClient : public RemoteWorkers {
+ public:
+  WorkerClient(std::string url, const SolverRegistry& solvers);
+  ~WorkerClient() override;
+  WorkerClient(const WorkerClient&) = delete;
+  WorkerClient& operator=(const WorkerClient&) = delete;
+
+  bool know(const std::string& solver) const override;
+  std::unique_ptr<Batch> ask(const std::vector<PieceQuestion>& questions,
+                             Listener listener) override;
+  Tally tally() const override;
+  std::string trouble() const override;
+
+ private:
+  class OpenBatch;
+  /// What the listening thread knows of a batch. Its mutex is held while the listener is told, so
+  /// that a batch that has ended tells nothing.
+  struct Told {
+    std::mutex mutex;
+    bool ended = false;
+    std::size_t questions = 0;
+    Listener listener;
+  };
+
+  void run();
+  /// Null while there is no server. Tries again until this object ends.
+  std::shared_ptr<NatsLink> connect();
+  /// Until this object ends. @throws LinkError when the connection has.
+  void listen(const std::shared_ptr<NatsLink>& link);
+  void take(const LinkMessage& message);
+  /// The link, after a moment where it is just being made; null: there is none.
+  std::shared_ptr<NatsLink> link();
+  void end(std::uint64_t batch);
+
+  const std::string url_;
+  const SolverRegistry& solvers_;
+  const std::string client_;
+  std::atomic<std::uint64_t> asked_{0};
+  std::atomic<std::uint64_t> answered_{0};
+  mutable std::mutex mutex_;  // guards what follows
+  std::condition_variable changed_;
+  bool closing_ = false;
+  bool tried_ = false;  ///< to reach the server, once at least
+  std::string trouble_;
+  std::shared_ptr<NatsLink> link_;
+  std::uint64_t last_batch_ = 0;
+  std::map<std::uint64_t, std::shared_ptr<Told>> batches_;
+  std::thread thread_;  // last: it uses all of this
+};
+
+}  // namespace split_mapf
