@@ -1,10 +1,13 @@
 #include "targets.h"
 
+#include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <sstream>
 #include <stdexcept>
 #include <vector>
 
@@ -19,6 +22,8 @@
 #include "split_mapf/io/problem_bytes.h"
 #include "split_mapf/io/task_file.h"
 #include "split_mapf/io/vda5050.h"
+#include "split_mapf/roadmap/obstacle_raster.h"
+#include "split_mapf/roadmap/roadmap.h"
 #include "split_mapf/split/split_options.h"
 #include "split_mapf/split/split_spec.h"
 
@@ -142,6 +147,27 @@ bool readProblemBytes(const std::string& bytes) {
   });
 }
 
+/// The first line has radius, clearance, cell size and resolution [m], and whether passages are
+/// laid; the others are rows of a map, '#' being blocked. A graph that is built has been proved.
+bool buildRoadmapOfBytes(const std::string& bytes) {
+  constexpr std::uint32_t kMostSide = 64;
+  std::istringstream in(bytes);
+  RoadmapOptions options;
+  ObstacleRaster raster;
+  in >> options.robot_radius_m >> options.clearance_m >> options.cell_size_m >>
+      raster.resolution_m >> options.passages;
+  if (!in || !(raster.resolution_m > 0) || !std::isfinite(raster.resolution_m)) return false;
+  for (std::string row; in >> row && raster.height < kMostSide; ++raster.height) {
+    if (raster.width == 0) {
+      raster.width = static_cast<std::uint32_t>(std::min<std::size_t>(row.size(), kMostSide));
+    }
+    row.resize(raster.width, '.');
+    for (const char c : row) raster.blocked.push_back(c == '#' ? 1 : 0);
+  }
+  if (raster.height == 0) return false;
+  return isTaken([&] { buildRoadmap(raster, options); });
+}
+
 bool readRobotBytes(const std::string& bytes) {
   const bool is_state = isTaken([&] { parseVda5050State(bytes); });
   const bool is_connection = isTaken([&] { parseVda5050Connection(bytes); });
@@ -152,11 +178,17 @@ bool readRobotBytes(const std::string& bytes) {
 
 const std::map<std::string, Target>& targets() {
   static const std::map<std::string, Target> all = {
-      {"map", readMapBytes},           {"map_server", readMapServerBytes},
-      {"picture", readPictureBytes},   {"plan", readPlanBytes},
-      {"poses", readPoseBytes},        {"problem", readProblemBytes},
-      {"scenario", readScenarioBytes}, {"split", readSplitBytes},
-      {"tasks", readTaskBytes},        {"vda5050", readRobotBytes},
+      {"map", readMapBytes},
+      {"map_server", readMapServerBytes},
+      {"picture", readPictureBytes},
+      {"plan", readPlanBytes},
+      {"poses", readPoseBytes},
+      {"problem", readProblemBytes},
+      {"roadmap", buildRoadmapOfBytes},
+      {"scenario", readScenarioBytes},
+      {"split", readSplitBytes},
+      {"tasks", readTaskBytes},
+      {"vda5050", readRobotBytes},
   };
   return all;
 }

@@ -168,7 +168,11 @@ std::uint32_t leastSpacingCells(const RoadmapOptions& options, double resolution
 
 std::optional<Roadmap> buildRoadmap(const ObstacleRaster& raster, const RoadmapOptions& options,
                                     const Deadline& deadline) {
-  const std::uint32_t spacing = spacingCells(options, raster.resolution_m);
+  const std::uint32_t asked = spacingCells(options, raster.resolution_m);
+  // A lattice as wide as the map has one vertex, and a wider one only more places to try it at.
+  const std::uint32_t spacing = std::min(
+      asked,
+      std::max({leastSpacingCells(options, raster.resolution_m), raster.width, raster.height}));
   // Robots without size may not cut across the corner of an obstacle either.
   const double radius =
       std::max(kLeastRadius, (options.robot_radius_m + options.clearance_m) / raster.resolution_m);
