@@ -83,7 +83,10 @@ class Plot:
 
     def write(self, path):
         script = "\n".join(["set output %s" % quoted(path), *self.lines, "unset multiplot", ""])
-        subprocess.run(["gnuplot"], input=script, check=True, universal_newlines=True)
+        result = subprocess.run(["gnuplot"], input=script, stderr=subprocess.PIPE, check=False,
+                                universal_newlines=True)
+        if result.returncode != 0:  # its warnings are of ranges
+            raise ValueError("gnuplot cannot draw %s: %s" % (path, result.stderr.strip()))
 
 
 def quoted(text):
