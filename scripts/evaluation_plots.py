@@ -242,6 +242,7 @@ def draw_trade(description, name, rows, path):
                     % quoted("%s, %s robots" % (place, here[0]["robots"])),
                     "set arrow 1 from first 1, graph 0 to first 1, graph 1 nohead dt 2",
                     "set xrange [*<0.5:2<*]", "set yrange [*<0.95:1.05<*]",
+                    "set offsets 0, 0, graph 0.25, 0",
                     "set key outside bottom center horizontal font ',9'"], curves)
     plot.write(path)
 
