@@ -17,7 +17,7 @@ from fleet_case import FleetCase
 from move_clients import connect, goal_of, task
 from ros_processes import PATIENCE, SentGoal, action_client, start_program, wait_until
 from split_mapf.msg import MultiRobotPlan, PlanOutcome, PlanPathsGoal, RobotState, RobotTask
-from split_mapf.srv import PauseRobots
+from split_mapf.srv import BlockCells, PauseRobots
 
 RADIUS = 0.3
 SPEED = 5.0
@@ -202,6 +202,17 @@ class DiscFleet(FleetCase):
         self.assertEqual([fault.code for fault in result.faults],
                          [PlanOutcome.BLOCKED_CELL, PlanOutcome.OUTSIDE_MAP], result.message)
         self.assertIn(result.robot_ids[2], [path.robot_id for path in plan.paths])
+        # The doors are closed, and opened again.
+        block = rospy.ServiceProxy("fleet/block_cells", BlockCells)
+        doors = [y * ROOMS[0] + ROOMS[0] // 2 for door in DOORS for y in door]
+        self.assertTrue(block(doors, True).ok)
+        result = self.result_of(self.goals(swapped=True)[0])
+        self.assertEqual(result.outcome, PlanOutcome.UNREACHABLE_GOAL, result.message)
+        self.assertTrue(block(doors, False).ok)
+        # They count as open from the node's next tick on.
+        first = self.goals(swapped=True)[0]
+        self.assertTrue(wait_until(
+            lambda: self.result_of(first).outcome == PlanOutcome.SUCCEEDED))
         SentGoal(self.mover, goal_of(*self.goals(swapped=True)))
         self.assertTrue(wait_until(lambda: self.count(RobotState.MOVING) > 2, PATIENCE))
         fleet = self.kill_and_start_again(fleet, self.start_rolling)

@@ -20,6 +20,7 @@ namespace split_mapf {
 namespace {
 
 constexpr double kStatePeriodSec = 0.5;
+constexpr std::size_t kMostNear = 100000;  // cells of which it is known what is near
 
 bool isFinite(const geometry_msgs::Point& point) {
   return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
@@ -74,19 +75,26 @@ void FleetServer::reindex() {
   }
 }
 
-/// On a planning graph, whose vertices lie apart, all to which an edge leads that comes near.
-void FleetServer::markNear(std::vector<bool>& cells, Cell cell, double distance_m) const {
+/// On a planning graph, whose vertices lie apart, all to which an edge leads that comes near. They
+/// are kept, as most cells are asked for again at the next tick.
+void FleetServer::markNear(std::vector<bool>& cells, Cell cell, double distance_m) {
   const auto& moves = fleet_->graph().closeMoves();
   if (!moves) {
     const Vertex vertex = grid_->grid->vertexAt(cell);
     if (vertex != kNoVertex) cells[vertex] = true;
     return;
   }
-  const double resolution_m = grid_->geometry.info().resolution;
-  const PlanePoint centre{(cell.x + 0.5) * resolution_m, (cell.y + 0.5) * resolution_m};
-  // Anywhere in the cell.
-  const double far = distance_m + resolution_m * std::sqrt(0.5);
-  for (const Vertex v : moves->nearTo(centre, centre, far)) cells[v] = true;
+  if (near_of_ != moves || near_.size() >= kMostNear) near_.clear();
+  near_of_ = moves;
+  const auto [near, is_new] = near_.try_emplace({cell.x, cell.y, distance_m});
+  if (is_new) {
+    const double resolution_m = grid_->geometry.info().resolution;
+    const PlanePoint centre{(cell.x + 0.5) * resolution_m, (cell.y + 0.5) * resolution_m};
+    // Anywhere in the cell.
+    const double far = distance_m + resolution_m * std::sqrt(0.5);
+    near->second = moves->nearTo(centre, centre, far);
+  }
+  for (const Vertex v : near->second) cells[v] = true;
 }
 
 /// The cell in which a pose lies; nothing where there is none, or no map yet.

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 #include <thread>
+#include <tuple>
 #include <vector>
 
 #include <actionlib/server/action_server.h>
@@ -152,7 +153,7 @@ class FleetServer {
   std::optional<Cell> placeOf(const geometry_msgs::PoseStamped& pose) const;
   void countRefused(const RobotProgress& message, const std::string& why);
   void closeCells();
-  void markNear(std::vector<bool>& cells, Cell cell, double distance_m) const;
+  void markNear(std::vector<bool>& cells, Cell cell, double distance_m);
   void reindex();
 
   // Services.
@@ -198,6 +199,9 @@ class FleetServer {
   std::map<std::string, LeftOut> part_left_out_;
   std::string discs_plan_;
   std::vector<bool> left_out_cells_;  ///< by vertex of the part
+  /// What is near to cells, by column, row and distance, as far as it was asked for on a graph.
+  std::map<std::tuple<std::int32_t, std::int32_t, double>, std::vector<Vertex>> near_;
+  std::shared_ptr<const CloseMoves> near_of_;
   std::vector<RobotFault> faults_;
   bool all_paused_ = false;
   std::set<std::string> paused_;
