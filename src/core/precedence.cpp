@@ -128,9 +128,10 @@ namespace {
 class EarliestSchedule {
  public:
   EarliestSchedule(const Precedence& precedence, const std::vector<std::uint32_t>& departures,
-                   const Deadline& deadline)
+                   const Deadline& deadline, std::uint32_t headway)
       : precedence_(precedence),
         departures_(departures),
+        headway_(headway),
         poll_(deadline),
         steps_(precedence.size(), kOpen) {}
 
@@ -168,7 +169,7 @@ class EarliestSchedule {
   void settle(VisitId event) {
     const VisitId awaited = precedence_.awaits(event);
     const std::uint32_t soonest = soonestOf(event);
-    steps_[event] = awaited == kNoVisit ? soonest : std::max(soonest, steps_[awaited]);
+    steps_[event] = awaited == kNoVisit ? soonest : std::max(soonest, steps_[awaited] + headway_);
   }
 
   void settleRing() {
@@ -179,6 +180,7 @@ class EarliestSchedule {
 
   const Precedence& precedence_;
   const std::vector<std::uint32_t>& departures_;
+  const std::uint32_t headway_;
   SparsePoll poll_;
   std::vector<std::uint32_t> steps_;
   std::vector<VisitId> chain_;
@@ -188,8 +190,8 @@ class EarliestSchedule {
 
 std::vector<std::uint32_t> earliestSteps(const Precedence& precedence,
                                          const std::vector<std::uint32_t>& departures,
-                                         const Deadline& deadline) {
-  return EarliestSchedule(precedence, departures, deadline).run();
+                                         const Deadline& deadline, std::uint32_t headway) {
+  return EarliestSchedule(precedence, departures, deadline, headway).run();
 }
 
 Plan planOf(const Precedence& precedence, const std::vector<std::uint32_t>& steps) {

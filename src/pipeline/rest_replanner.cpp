@@ -16,17 +16,30 @@
 namespace split_mapf {
 namespace {
 
-// Of the budget, for robots one at a time: the greatest gains come first.
+// Of what is left of the budget, for robots one at a time: the greatest gains come first.
 constexpr std::uint64_t kSinglyOneIn = 3;
+// What is done with each visit beside the searches (orders, tables, checks, forecasts), and that
+// states of long plans cost more, takes as long as so many states; to take rings out so many more.
+constexpr std::uint64_t kStatesAVisit = 3;
+constexpr std::uint64_t kStatesAVisitOfRings = 1;
+// A map is one of lanes when of its vertices more than one in so many have no third way.
+constexpr std::uint32_t kLanesOneIn = 3;
 constexpr std::uint32_t kPasses = 8;
 constexpr double kStatesAPoll = 1024;
+
+bool isOfLanes(const Graph& graph) {
+  std::uint32_t lanes = 0;
+  for (Vertex v = 0; v < graph.size(); ++v) lanes += graph.neighbours(v).size() <= 2 ? 1 : 0;
+  return lanes > graph.size() / kLanesOneIn;
+}
 
 /// One call of RestReplanner::replan().
 class RestRun {
  public:
-  RestRun(const Instance& whole, const MotionTimes& times, const ReplanQuestion& question,
-          const Deadline& deadline)
+  RestRun(const Instance& whole, bool is_of_lanes, const MotionTimes& times,
+          const ReplanQuestion& question, const Deadline& deadline)
       : whole_(whole),
+        is_of_lanes_(is_of_lanes),
         times_(times),
         question_(question),
         graph_(*question.graph),
@@ -40,16 +53,14 @@ class RestRun {
   ReplanAnswer run(std::uint64_t expansions, std::uint64_t seed) {
     answer_.cost_after = answer_.cost_before;
     answer_.rings = ringsAhead();
+    budget_ = expansions;
     const Precedence order = restBehind(graph_, cut_);
-    Plan rest = planOf(order, earliestSteps(order, departures_));
-    trimToArrival(rest);
+    spent_ += kStatesAVisit * order.size();
+    const bool has_rings = breaksRings() && !findRings(order).empty();
+    Plan rest = soonest(order, has_rings);
     const Instance instance = instanceOf(rest);
-    if (breaksRings()) {
-      rest = breakRings(instance, std::move(rest), Departures(departures_), deadline_,
-                        &answer_.expansions);
-    }
-    rest = improve(instance, std::move(rest), expansions, seed);
-    rest = compactRest(rest, order.vertices());
+    if (has_rings) rest = takeOutRings(instance, std::move(rest));
+    rest = improve(instance, std::move(rest), seed);
     requireValid(instance, rest);
     judge(concatenate(graph_, cut_, rest));
     return std::move(answer_);
@@ -66,9 +77,23 @@ class RestRun {
     return breaksRings() ? withoutRings(graph_, std::move(cut)) : cut;
   }
 
-  Plan compactRest(const Plan& rest, std::uint32_t vertices) const {
-    const Precedence order(rest, vertices);
-    return planOf(order, earliestSteps(order, departures_));
+  /// The rest in this order, each visit as soon as it can be. Who follows another is planned a step
+  /// behind: a little late, but what searches gain the robots gain, too, and nobody can rotate. In
+  /// lanes, where robots queue, these gaps cost more than that.
+  Plan soonest(const Precedence& order, bool has_rings) {
+    headway_ = breaksRings() && !is_of_lanes_ && !has_rings ? 1 : 0;
+    Plan rest = planOf(order, earliestSteps(order, departures_, {}, headway_));
+    trimToArrival(rest);
+    return rest;
+  }
+
+  /// Those that are left when a half of the budget is spent stay for the next replan.
+  Plan takeOutRings(const Instance& instance, Plan rest) {
+    rest = breakRings(instance, std::move(rest), Departures(departures_), deadline_,
+                      &answer_.expansions, budget_ / 2);
+    const Precedence order(rest, whole_.graph().size());
+    spent_ += kStatesAVisitOfRings * order.size();
+    return soonest(order, !findRings(order).empty());
   }
 
   Forecast forecastOf(const ExecutionGraph& graph) const {
@@ -104,46 +129,53 @@ class RestRun {
     return Instance::stretchOf(whole_, starts, goals);
   }
 
-  Plan improve(const Instance& instance, Plan rest, std::uint64_t expansions, std::uint64_t seed) {
+  Plan improve(const Instance& instance, Plan rest, std::uint64_t seed) {
     const Departures departures(departures_);
     ReplanEffort effort;
     effort.passes = kPasses;
     effort.departures = departures;
-    effort.avoids_rings = breaksRings();
-    effort.go_on = [&](std::uint64_t more, std::uint64_t) {
+    effort.headway = headway_;
+    const bool avoids_rings = breaksRings() && headway_ == 0;
+    effort.avoids_rings = avoids_rings;
+    const std::uint64_t until = spent() + left() / kSinglyOneIn;
+    effort.go_on = [&, until](std::uint64_t more, std::uint64_t) {
       answer_.expansions += more;
-      return answer_.expansions < expansions / kSinglyOneIn;
+      return spent() < until;
     };
-    rest = replanSingly(instance, std::move(rest), effort, deadline_);
+    rest = replanSingly(instance, std::move(rest), effort, withinWhatIsLeft());
     const std::uint64_t before = answer_.expansions;
-    NeighbourhoodSearch search(instance, std::move(rest), kForever - 1, seed, departures);
+    NeighbourhoodSearch search(instance, std::move(rest), kForever - 1, seed, departures, nullptr,
+                               headway_);
     const auto makes_no_ring = [&](const std::vector<PathChange>& changes) {
-      if (!breaksRings()) return true;
+      if (!avoids_rings) return true;
       return std::none_of(changes.begin(), changes.end(), [&](const PathChange& change) {
         return closesRing(search.table(), change.path);
       });
     };
-    std::uint64_t left = sumOfCostsOf(search.plan());
-    for (const std::uint32_t step : departures.soonestArrivals(instance)) left -= step;
+    std::uint64_t delay = sumOfCostsOf(search.plan());
+    for (const std::uint32_t step : departures.soonestArrivals(instance)) delay -= step;
     // What a try costs beside its states: robots are looked through for one that is late.
     const std::uint64_t look = 64 + instance.robots() / 8;
-    std::uint64_t looks = 0;
-    const Deadline capped = withinBudget(expansions);
-    while (left > 0 && answer_.expansions + looks < expansions && !deadline_.expired()) {
-      left -= static_cast<std::uint64_t>(search.tryOne(capped, makes_no_ring));
+    const Deadline capped = withinWhatIsLeft();
+    while (delay > 0 && left() > 0 && !deadline_.expired()) {
+      delay -= static_cast<std::uint64_t>(search.tryOne(capped, makes_no_ring));
       answer_.expansions = before + search.expansions();
-      looks += look;
+      spent_ += look;
     }
     return search.plan();
   }
 
-  /// Ends a try that has used up what is left, as one of many searches may take as much as all
-  /// others: searches look at the deadline once in kStatesAPoll states.
-  Deadline withinBudget(std::uint64_t expansions) const {
-    const std::uint64_t left = expansions - std::min(expansions, answer_.expansions);
+  /// In states.
+  std::uint64_t spent() const { return spent_ + answer_.expansions; }
+
+  std::uint64_t left() const { return budget_ - std::min(budget_, spent()); }
+
+  /// Ends a search that has used up what is left, as one of many may take as much as all others:
+  /// searches look at the deadline once in kStatesAPoll states.
+  Deadline withinWhatIsLeft() const {
     WorkClock of_a_poll;
     of_a_poll.tick();
-    const double polls = static_cast<double>(left) / kStatesAPoll;
+    const double polls = static_cast<double>(left()) / kStatesAPoll;
     return deadline_.countedBy(std::make_shared<WorkClock>()).within(polls * of_a_poll.nowSec());
   }
 
@@ -185,6 +217,7 @@ class RestRun {
   }
 
   const Instance& whole_;
+  const bool is_of_lanes_;
   const MotionTimes& times_;
   const ReplanQuestion& question_;
   const ExecutionGraph& graph_;
@@ -193,13 +226,19 @@ class RestRun {
   Forecast now_;
   Cut cut_;
   std::vector<std::uint32_t> departures_;  // [steps] behind the cut
+  std::uint64_t budget_ = 0;               // [states]
+  std::uint64_t spent_ = 0;                // beside the searches' own
+  std::uint32_t headway_ = 0;              // [steps] that the plans of the rest keep
 };
 
 }  // namespace
 
 RestReplanner::RestReplanner(const Instance& instance, const MotionTimes& times,
                              const ReplanBudget& budget)
-    : instance_(instance), times_(times), budget_(budget) {
+    : instance_(instance),
+      is_of_lanes_(isOfLanes(instance.graph())),
+      times_(times),
+      budget_(budget) {
   for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) instance.distances(robot);
   if (budget_.expansions == 0) {
     budget_.expansions = std::max(ReplanBudget::kLeastExpansions,
@@ -208,7 +247,7 @@ RestReplanner::RestReplanner(const Instance& instance, const MotionTimes& times,
 }
 
 ReplanAnswer RestReplanner::replan(const ReplanQuestion& question, const Deadline& deadline) {
-  return RestRun(instance_, times_, question, deadline)
+  return RestRun(instance_, is_of_lanes_, times_, question, deadline)
       .run(budget_.expansions, budget_.seed + replans_++);
 }
 

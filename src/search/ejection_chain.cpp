@@ -46,7 +46,7 @@ void EjectionChain::eject(std::uint32_t robot, const Path& by, std::uint32_t rea
   if (!link.waits) {
     spare_ += costOf(link.path) - oldCost(link);
     wait(static_cast<std::size_t>(&link - links_.data()),
-         std::max(departures_(robot), keptUntil(link.path, *firstConflict(by, link.path), reach)));
+         std::max(departures_(robot), keptUntil(link.path, firstInTheWay(by, link.path), reach)));
     return;
   }
   // It waits for its turn, and even what it keeps is in the way: it will begin at its start.
@@ -56,9 +56,15 @@ void EjectionChain::eject(std::uint32_t robot, const Path& by, std::uint32_t rea
   table_->removeTail(robot, link.path, link.kept);
 }
 
+/// The first step at whose end somebody is in the way. @pre somebody is.
+std::uint32_t EjectionChain::firstInTheWay(const Path& by, const Path& path) const {
+  return table_->headway() > 0 ? *firstFollowing(by, path) : *firstConflict(by, path);
+}
+
 /// Nobody is ejected from where it has to stand.
 bool EjectionChain::mayAllBeEjected(std::size_t link, const Path& by) const {
-  if (!departures_.any()) return true;
+  const std::uint32_t headway = table_->headway();
+  if (!departures_.any() && headway == 0) return true;
   const std::vector<std::uint32_t> robots = robotsInTheWay(table_->paths(), by);
   return std::all_of(robots.begin(), robots.end(), [&](std::uint32_t robot) {
     if (robot == links_[link].robot) return true;
@@ -66,7 +72,8 @@ bool EjectionChain::mayAllBeEjected(std::size_t link, const Path& by) const {
                                     [robot](const Link& other) { return other.robot == robot; });
     const Path& path = known != links_.end() ? known->path : plan_->paths[robot];
     if (departures_.holds(robot, path)) return false;
-    return departures_(robot) == 0 || *firstConflict(by, path) > departures_(robot);
+    const std::uint32_t held = departures_(robot) + headway;
+    return held == 0 || firstInTheWay(by, path) > held;
   });
 }
 
@@ -76,7 +83,9 @@ Path EjectionChain::search(const ChainStart& start, const Link& link, std::uint3
   EvictionQuery query = {queryFrom(link.path, link.kept, *distances, *table_, latest_arrival)};
   query.weights = may_eject ? &weights_ : nullptr;
   query.hasty = start.hasty;
+  table_->toggleHeadway(link.path, link.kept);
   GapAnswer answer = search_.search(query, deadline);
+  table_->toggleHeadway(link.path, link.kept);
   expansions_ += answer.expansions;
   if (!answer.path.empty()) {
     std::copy_n(link.path.begin(), link.kept, answer.path.begin());

@@ -75,6 +75,7 @@ class EjectionChain {
   Path search(const ChainStart& start, const Link& link, std::uint32_t latest_arrival,
               bool may_eject, const Deadline& deadline);
   bool mayAllBeEjected(std::size_t link, const Path& by) const;
+  std::uint32_t firstInTheWay(const Path& by, const Path& path) const;
   void eject(std::uint32_t robot, const Path& by, std::uint32_t reach);
   Link& linkOf(std::uint32_t robot);
   std::int64_t costOf(const Path& path) const { return static_cast<std::int64_t>(path.size() - 1); }

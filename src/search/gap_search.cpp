@@ -61,7 +61,8 @@ bool GapSearch::begin() {
   earliest_hold_ = at_goal.empty() ? 0 : at_goal.back().end;
   // Its own visit keeps nobody from staying on.
   const bool at_home = query_->under_way && query_->start == query_->distances->goal();
-  if (at_home && earliest_hold_ == query_->departure + 1) --earliest_hold_;
+  const std::uint32_t own_end = query_->departure + 1 + query_->placed->headway();
+  if (at_home && earliest_hold_ == own_end) earliest_hold_ = query_->departure;
   const std::uint32_t distance = (*query_->distances)(query_->start);
   if (distance == DistanceTable::kUnreachable || earliest_hold_ == kForever) return false;
   first_estimate_ = estimate_ = query_->departure + distance;

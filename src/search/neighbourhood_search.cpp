@@ -10,7 +10,8 @@ namespace split_mapf {
 
 NeighbourhoodSearch::NeighbourhoodSearch(const Instance& instance, Plan plan,
                                          std::uint32_t latest_arrival, std::uint64_t seed,
-                                         const Departures& departures, const Reservations* reserved)
+                                         const Departures& departures, const Reservations* reserved,
+                                         std::uint32_t headway)
     : instance_(instance),
       departures_(departures),
       soonest_(departures.soonestArrivals(instance)),
@@ -21,7 +22,7 @@ NeighbourhoodSearch::NeighbourhoodSearch(const Instance& instance, Plan plan,
       chain_(instance, latest_arrival, departures,
              reserved != nullptr ? reserved->paths().size() : 0),
       plan_(std::move(plan)),
-      table_(instance.graph().size(), plan_) {
+      table_(instance.graph().size(), plan_, headway) {
   if (reserved == nullptr) return;
   std::uint32_t number = instance.robots();
   for (const Path& path : reserved->paths()) table_.insert(number++, path);
@@ -72,6 +73,7 @@ Path NeighbourhoodSearch::search(const Member& member, std::uint32_t latest_arri
   const Path& before = plan_.paths[member.robot];
   const HeldDistances distances = instance_.distances(member.robot);
   const GapQuery query = queryFrom(before, member.kept, *distances, table_, latest_arrival);
+  table_.toggleHeadway(before, member.kept);
   GapAnswer answer = search_.search(query, deadline);
   expansions_ += answer.expansions;
   if (!answer.path.empty()) {
@@ -81,6 +83,7 @@ Path NeighbourhoodSearch::search(const Member& member, std::uint32_t latest_arri
     }
     waits_.place(table_, answer.path, member.kept);
   }
+  table_.toggleHeadway(before, member.kept);
   return std::move(answer.path);
 }
 
@@ -97,7 +100,10 @@ std::uint32_t NeighbourhoodSearch::latestArrival(const Member& member) const {
 void NeighbourhoodSearch::releaseWhoIsFree() {
   const auto release = [this](const Member& member) {
     const Path& path = plan_.paths[member.robot];
-    if (!table_.isFree(path, member.kept)) return false;
+    table_.toggleHeadway(path, member.kept);
+    const bool is_free = table_.isFree(path, member.kept);
+    table_.toggleHeadway(path, member.kept);
+    if (!is_free) return false;
     table_.insertTail(member.robot, path, member.kept);
     budget_ -= member.cost;
     set_aside_ -= member.set_aside;

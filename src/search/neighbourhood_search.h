@@ -34,10 +34,10 @@ class NeighbourhoodSearch {
   /// @param latest_arrival  nobody arrives after it. @pre the plan is valid and keeps it, its paths
   /// end at their arrivals; the instance outlives this object.
   /// @param departures  kept by the plan, as by all that come of it. @param reserved  likewise;
-  /// null: nothing is reserved.
+  /// null: nothing is reserved. @param headway  likewise, see ReservationTable.
   NeighbourhoodSearch(const Instance& instance, Plan plan, std::uint32_t latest_arrival,
                       std::uint64_t seed, const Departures& departures = {},
-                      const Reservations* reserved = nullptr);
+                      const Reservations* reserved = nullptr, std::uint32_t headway = 0);
 
   /// Tries one chain or neighbourhood; returns how many steps it gained: less than none where it
   /// may become worse. @param temperature  mean of what it may lose, drawn as in simulated

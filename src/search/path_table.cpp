@@ -16,7 +16,7 @@ void PathTable::insert(std::uint32_t robot, Vertex v, std::uint32_t begin, std::
   std::vector<Stay>& stays = stays_[v];
   auto place = stays.end();
   while (place != stays.begin() && begin < (place - 1)->begin) --place;
-  stays.insert(place, {begin, end, robot, next});
+  stays.insert(place, {begin, heldUntil(end), robot, next});
   timelines_[v].clear();
 }
 
@@ -44,8 +44,8 @@ void PathTable::remove(std::uint32_t robot, const Path& path) {
 void PathTable::removeTail(std::uint32_t robot, const Path& path, std::uint32_t from) {
   const Vertex at = positionAt(path, from);
   const auto kept = find(robot, at, beginOfStay(path, from));
-  const std::uint32_t end = kept->end;
-  kept->end = from + 1;
+  const std::uint32_t end = kept->end == kForever ? kForever : kept->end - headway_;
+  kept->end = heldUntil(from + 1);
   kept->next = kNoVertex;
   timelines_[at].clear();
   forEachStay(path, end, [&](Vertex v, std::uint32_t begin, std::uint32_t, Vertex) {
@@ -60,7 +60,7 @@ void PathTable::insertTail(std::uint32_t robot, const Path& path, std::uint32_t 
   const auto size = static_cast<std::uint32_t>(path.size());
   std::uint32_t end = from + 1;
   while (end < size && path[end] == at) ++end;
-  kept->end = end < size ? end : kForever;
+  kept->end = end < size ? heldUntil(end) : kForever;
   kept->next = end < size ? path[end] : kNoVertex;
   timelines_[at].clear();
   forEachStay(path, end, [&](Vertex v, std::uint32_t begin, std::uint32_t stay_end, Vertex next) {

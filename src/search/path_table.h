@@ -12,9 +12,14 @@ namespace split_mapf {
 /// Who is where and when: for each vertex the visits to it, ordered by their begin. Visits of
 /// different robots may overlap, as plans under construction have conflicts. Memory: one entry a
 /// visit, whatever the horizon, and as much again for timelines. Not thread-safe.
+/// With a headway robots hold a vertex for so many steps more after they have left it: visits end
+/// so much later, and nobody follows another any closer.
 class PathTable {
  public:
-  explicit PathTable(std::uint32_t vertices) : stays_(vertices), timelines_(vertices) {}
+  explicit PathTable(std::uint32_t vertices, std::uint32_t headway = 0)
+      : headway_(headway), stays_(vertices), timelines_(vertices) {}
+
+  std::uint32_t headway() const { return headway_; }
 
   /// @pre the robot has no path in the table; the path ends at its arrival.
   void insert(std::uint32_t robot, const Path& path);
@@ -39,7 +44,12 @@ class PathTable {
  private:
   std::vector<Stay>::iterator find(std::uint32_t robot, Vertex v, std::uint32_t begin);
   void insert(std::uint32_t robot, Vertex v, std::uint32_t begin, std::uint32_t end, Vertex next);
+  /// The end of a visit that is known to the table.
+  std::uint32_t heldUntil(std::uint32_t end) const {
+    return end == kForever ? kForever : end + headway_;
+  }
 
+  std::uint32_t headway_;
   std::vector<std::vector<Stay>> stays_;
   mutable std::vector<Timeline> timelines_;  // empty: to be built
   mutable TimelineBuilder builder_;
@@ -62,7 +72,7 @@ void forEachConflict(const PathTable& placed, const Path& path, Note note) {
   forEachStay(path, [&](Vertex v, std::uint32_t begin, std::uint32_t end, Vertex) {
     const PathVisit visit{v, begin, end, before};
     for (const Stay& stay : placed.at(v)) {
-      if (stay.begin >= end) break;
+      if (stay.begin >= end + placed.headway()) break;
       if (stay.end > begin) {
         note(stay, visit, false);
       } else if (stay.end == begin && before != kNoVertex && stay.next == before) {

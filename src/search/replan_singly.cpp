@@ -42,7 +42,7 @@ class BatchReplanning {
         effort_(effort),
         deadline_(deadline),
         team_(effort.threads.atMost(kMostThreads)),
-        tables_(team_.threads(), tableOf(instance, plan_, effort.reserved)),
+        tables_(team_.threads(), tableOf(instance, plan_, effort)),
         searches_(tables_.size(), {GapSearch(instance.graph())}) {}
 
   Plan run() {
@@ -62,11 +62,11 @@ class BatchReplanning {
 
  private:
   static ReservationTable tableOf(const Instance& instance, const Plan& plan,
-                                  const Reservations* reserved) {
-    ReservationTable table(instance.graph().size(), plan);
-    if (reserved == nullptr) return table;
+                                  const ReplanEffort& effort) {
+    ReservationTable table(instance.graph().size(), plan, effort.headway);
+    if (effort.reserved == nullptr) return table;
     std::uint32_t number = instance.robots();
-    for (const Path& path : reserved->paths()) table.insert(number++, path);
+    for (const Path& path : effort.reserved->paths()) table.insert(number++, path);
     return table;
   }
 

@@ -21,6 +21,7 @@ struct ReplanEffort {
   std::function<bool(std::uint64_t expansions, std::uint64_t gained)> go_on;
   Departures departures = {};              ///< kept by the plan, as by what comes of it
   const Reservations* reserved = nullptr;  ///< likewise; null: nothing is reserved
+  std::uint32_t headway = 0;               ///< likewise, see ReservationTable
   bool avoids_rings = false;               ///< takes no path that closes one, see closesRing()
 };
 

@@ -4,15 +4,19 @@
 
 namespace split_mapf {
 
-ReservationTable::ReservationTable(std::uint32_t vertices) : paths_(vertices), bits_(vertices, 0) {}
+ReservationTable::ReservationTable(std::uint32_t vertices, std::uint32_t headway)
+    : paths_(vertices, headway), bits_(vertices, 0) {}
 
-ReservationTable::ReservationTable(std::uint32_t vertices, const Plan& plan)
-    : ReservationTable(vertices) {
+ReservationTable::ReservationTable(std::uint32_t vertices, const Plan& plan, std::uint32_t headway)
+    : ReservationTable(vertices, headway) {
+  std::size_t steps = 0;
+  for (const Path& path : plan.paths) steps = std::max(steps, path.size());
+  coverSteps(steps + headway);
   for (std::uint32_t i = 0; i < plan.paths.size(); ++i) insert(i, plan.paths[i]);
 }
 
 void ReservationTable::insert(std::uint32_t robot, const Path& path) {
-  coverSteps(path.size());
+  coverSteps(path.size() + headway());
   paths_.insert(robot, path);
   flip(path, 0);
 }
@@ -31,14 +35,16 @@ bool ReservationTable::exchange(std::uint32_t robot, Path& own, Path& path) {
 }
 
 void ReservationTable::removeTail(std::uint32_t robot, const Path& path, std::uint32_t from) {
-  coverSteps(from + std::size_t{2});
+  coverSteps(from + std::size_t{2} + headway());
   paths_.removeTail(robot, path, from);
   flip(path, from + 1);
+  toggleHeadway(path, from);
 }
 
 void ReservationTable::insertTail(std::uint32_t robot, const Path& path, std::uint32_t from) {
-  coverSteps(std::max<std::size_t>(path.size(), from + std::size_t{2}));
+  coverSteps(std::max<std::size_t>(path.size(), from + std::size_t{2}) + headway());
   paths_.insertTail(robot, path, from);
+  toggleHeadway(path, from);
   flip(path, from + 1);
 }
 
@@ -54,6 +60,7 @@ bool ReservationTable::isFree(const Path& path, std::uint32_t from) const {
 void ReservationTable::removeHead(std::uint32_t robot, const Path& path, std::uint32_t from) {
   paths_.removeHead(robot, path, from);
   flipSteps(path, 0, from + 1);
+  toggleHeadway(path, from);
 }
 
 std::uint32_t ReservationTable::takenAfter(Vertex v, std::uint32_t t, std::uint32_t last) const {
@@ -72,7 +79,7 @@ std::uint32_t ReservationTable::freeSince(Vertex v, std::uint32_t t) const {
   if (t == 0) return 0;
   std::uint64_t steps = ~std::uint64_t{0} >> (63 - (t - 1) % 64);
   for (std::uint32_t word = (t - 1) / 64 + 1; word-- > 0;) {
-    const std::uint64_t seen = taken(v, word) & steps;
+    const std::uint64_t seen = heldSteps(v, word) & steps;
     if (seen != 0) return 64 * (word + 1) - static_cast<std::uint32_t>(__builtin_clzll(seen));
     steps = ~std::uint64_t{0};
   }
@@ -82,7 +89,9 @@ std::uint32_t ReservationTable::freeSince(Vertex v, std::uint32_t t) const {
 /// Steps from .. to-1. A robot is alone where it is, so its bits are all unset or all set.
 void ReservationTable::flipSteps(const Path& path, std::uint32_t from, std::uint32_t to) {
   for (std::uint32_t t = from; t < to; ++t) {
-    bits_[std::size_t{positionAt(path, t)} * words_ + t / 64] ^= std::uint64_t{1} << (t % 64);
+    toggleStep(positionAt(path, t), t);
+    if (headway() == 0 || t == 0 || positionAt(path, t) == positionAt(path, t - 1)) continue;
+    toggleStep(path[t - 1], t);
   }
 }
 

@@ -12,11 +12,16 @@ namespace split_mapf {
 /// and step that says whether somebody is there. A search asks for 64 steps at a time.
 /// Memory: the path table, and vertices x greatest arrival / 8 bytes. Not thread-safe; const
 /// members are.
+/// With a headway of a step nobody comes to a vertex in the step in which another leaves it, as
+/// robots cannot that wait for a part of that move: no paths of the table do, and none that is
+/// searched for. So robots cannot rotate either.
 class ReservationTable {
  public:
-  explicit ReservationTable(std::uint32_t vertices);
-  /// Of robots 0, 1, ... @pre the plan has no conflicts and its paths end at their arrivals.
-  ReservationTable(std::uint32_t vertices, const Plan& plan);
+  /// @param headway  0 or 1 [steps]
+  explicit ReservationTable(std::uint32_t vertices, std::uint32_t headway = 0);
+  /// Of robots 0, 1, ... @pre the plan has no conflicts, and keeps the headway; its paths end at
+  /// their arrivals.
+  ReservationTable(std::uint32_t vertices, const Plan& plan, std::uint32_t headway = 0);
 
   /// @pre the robot has no path in the table, and no other is where this one is; the path ends at
   /// its arrival.
@@ -38,18 +43,27 @@ class ReservationTable {
     bits_[std::size_t{v} * words_ + t / 64] ^= std::uint64_t{1} << (t % 64);
   }
 
+  /// Hides from a robot whose tail is removed that it holds the vertex of step `from` for the
+  /// headway, which keeps others away but not itself; a second call undoes it.
+  void toggleHeadway(const Path& path, std::uint32_t from) {
+    if (headway() > 0) toggleStep(positionAt(path, from), from + 1);
+  }
+
+  std::uint32_t headway() const { return paths_.headway(); }
   const PathTable& paths() const { return paths_; }
   const std::vector<Stay>& at(Vertex v) const { return paths_.at(v); }
-  /// Bit i: somebody is at `v` at step 64 * word + i. Any word may be asked for.
+  /// Bit i: who is at `v` at step 64 * word + i is in the way of somebody, or in somebody's. Any
+  /// word may be asked for.
   std::uint64_t taken(Vertex v, std::uint32_t word) const {
-    const std::uint64_t* const row = bits_.data() + std::size_t{v} * words_;
-    return word < words_ ? row[word] : everAfter(row[words_ - 1]);
+    const std::uint64_t held = heldSteps(v, word);
+    // Who would be there in the step before a visit would not have left for long enough.
+    return headway() == 0 ? held : held | held >> 1U | heldSteps(v, word + 1) << 63U;
   }
 
   bool isTaken(Vertex v, std::uint32_t t) const { return (taken(v, t / 64) >> (t % 64) & 1U) != 0; }
   /// The first step after `t` at which somebody is at `v`; last + 1 if nobody is until step `last`.
   std::uint32_t takenAfter(Vertex v, std::uint32_t t, std::uint32_t last) const;
-  /// The step from which on nobody was at `v` until step t - 1; `t` if somebody was then.
+  /// The step from which on nobody held `v` until step t - 1; `t` if somebody did then.
   std::uint32_t freeSince(Vertex v, std::uint32_t t) const;
   /// Whether nobody is in the way of a robot that stays on the path after step `from`, and at its
   /// end for good. @pre of the robot's own visits none is known that begins later than `from`.
@@ -63,6 +77,10 @@ class ReservationTable {
  private:
   // After the last step of the bits nothing changes any more.
   static std::uint64_t everAfter(std::uint64_t last_word) { return 0 - (last_word >> 63U); }
+  std::uint64_t heldSteps(Vertex v, std::uint32_t word) const {
+    const std::uint64_t* const row = bits_.data() + std::size_t{v} * words_;
+    return word < words_ ? row[word] : everAfter(row[words_ - 1]);
+  }
   void coverSteps(std::size_t steps);
   void flip(const Path& path, std::uint32_t from);
   void flipSteps(const Path& path, std::uint32_t from, std::uint32_t to);

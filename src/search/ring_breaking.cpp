@@ -15,6 +15,9 @@ constexpr int kRounds = 5;
 // Steps before a ring from which a robot of it looks for another way: the way up to there is as
 // good as it was, and most of what a search from the start would look at lies there.
 constexpr std::uint32_t kReach = 16;
+// Steps by which a robot that steps aside shortly before a ring may arrive later: who must wait for
+// longer looks for another way from its start. How far a search looks ahead costs time and memory.
+constexpr std::uint32_t kMostDelay = 64;
 
 /// Where the robot goes that leaves a vertex in step t; kNoVertex: none does.
 Vertex leadsTo(const ReservationTable& placed, Vertex v, std::uint32_t t) {
@@ -29,10 +32,11 @@ Vertex leadsTo(const ReservationTable& placed, Vertex v, std::uint32_t t) {
 class RingBreaking {
  public:
   RingBreaking(const Instance& instance, Plan plan, const Departures& departures,
-               const Deadline& deadline)
+               const Deadline& deadline, std::uint64_t most)
       : instance_(instance),
         departures_(departures),
         deadline_(deadline),
+        most_(most),
         plan_(std::move(plan)),
         table_(instance.graph().size(), plan_),
         search_(instance.graph()) {}
@@ -44,6 +48,7 @@ class RingBreaking {
       if (round > 0) order = Precedence(plan_, instance_.graph().size());
       bool broken = false;
       for (const Ring& ring : findRings(order)) {
+        if (expansions_ >= most_) return std::move(plan_);
         if (stillRotates(order, ring)) broken = breakOne(order, ring) || broken;
       }
       if (!broken || deadline_.expired()) break;
@@ -77,7 +82,8 @@ class RingBreaking {
       if (!best.empty() && slack == 0) break;
       const std::uint32_t own = order[event].robot;
       const auto cost = static_cast<std::uint32_t>(plan_.paths[own].size() - 1);
-      const std::uint32_t latest = best.empty() ? kForever - 1 : cost + slack - 1;
+      const std::uint32_t most = reach == kForever ? kForever - 1 : cost + kMostDelay;
+      const std::uint32_t latest = best.empty() ? most : cost + slack - 1;
       // From its start it has looked already.
       if (reach == kForever && keptOf(order[event], kReach) == keptOf(order[event], reach))
         continue;
@@ -122,6 +128,7 @@ class RingBreaking {
   const Instance& instance_;
   const Departures& departures_;
   const Deadline& deadline_;
+  const std::uint64_t most_;
   Plan plan_;
   ReservationTable table_;
   GapSearch search_;
@@ -131,10 +138,10 @@ class RingBreaking {
 }  // namespace
 
 Plan breakRings(const Instance& instance, Plan plan, const Departures& departures,
-                const Deadline& deadline, std::uint64_t* expansions) {
+                const Deadline& deadline, std::uint64_t* expansions, std::uint64_t most) {
   Precedence order(plan, instance.graph().size());
   if (findRings(order).empty()) return plan;
-  RingBreaking breaking(instance, std::move(plan), departures, deadline);
+  RingBreaking breaking(instance, std::move(plan), departures, deadline, most);
   Plan broken = breaking.run(std::move(order));
   if (expansions != nullptr) *expansions += breaking.expansions();
   return broken;

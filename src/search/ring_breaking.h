@@ -16,9 +16,11 @@ namespace split_mapf {
 /// Some rings may stay, where nobody can go elsewhere; the plan stays valid, and keeps departures.
 /// Ours. Cost: O(visits), and for each robot of a ring a GapSearch from shortly before it; from the
 /// robot's start only where that finds nothing. @param expansions  grows by the states of these
-/// searches; null: nobody counts them.
+/// searches; null: nobody counts them. @param most  of these, once which are made the other rings
+/// stay.
 Plan breakRings(const Instance& instance, Plan plan, const Departures& departures,
-                const Deadline& deadline, std::uint64_t* expansions = nullptr);
+                const Deadline& deadline, std::uint64_t* expansions = nullptr,
+                std::uint64_t most = ~std::uint64_t{0});
 
 /// Whether a robot whose path is in the table rotates with others at some step behind `from`: who
 /// improves a plan without rings asks it of each new path, and never makes one. Cost: O(steps), and

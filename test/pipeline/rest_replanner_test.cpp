@@ -129,5 +129,34 @@ TEST(RestReplanner, KeepsWhatIsPromisedAndIsCheaper) {
   EXPECT_GT(taken, 50U);
 }
 
+/// Random walks of a crowd, with rotations, that nobody has begun.
+struct RotatingCrowd {
+  std::shared_ptr<const Grid> grid =
+      std::make_shared<const Grid>(20, 20, std::vector<bool>(400, true));
+  Plan plan;
+  explicit RotatingCrowd(std::uint64_t seed) {
+    RandomEngine engine(seed);
+    plan = test::randomValidPlan(*grid, 280, 40, engine);
+  }
+  ReplanAnswer replan(std::uint64_t expansions) const {
+    const Instance instance = test::instanceOf(grid, plan);
+    const ExecutionGraph graph(Precedence(plan, grid->size()), 0.7);
+    ReplanQuestion question;
+    question.graph = &graph;
+    question.commit = 10;
+    question.avoid_rings = true;
+    return RestReplanner(instance, {10, 0, 0}, {expansions, 0}).replan(question);
+  }
+};
+
+TEST(RestReplanner, SpendsNoMoreThanItsBudgetOnRingsEither) {
+  const RotatingCrowd crowd(1);
+  ASSERT_GT(findRings(Precedence(crowd.plan, crowd.grid->size())).size(), 4U);
+  // What is begun is ended: the searches around one ring, those of a batch.
+  for (const std::uint64_t budget : {300U, 3000U, 100000U}) {
+    EXPECT_LE(crowd.replan(budget).expansions, budget + 1500) << budget;
+  }
+}
+
 }  // namespace
 }  // namespace split_mapf

@@ -19,4 +19,8 @@ inline bool movesConflict(Vertex a_from, Vertex a_to, Vertex b_from, Vertex b_to
 /// whose path has ended stays. Cost: O(longer path).
 std::optional<std::uint32_t> firstConflict(const Path& a, const Path& b);
 
+/// The same where robots must not even follow each other: none may come to a vertex in the step in
+/// which the other leaves it.
+std::optional<std::uint32_t> firstFollowing(const Path& a, const Path& b);
+
 }  // namespace split_mapf

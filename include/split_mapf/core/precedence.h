@@ -87,13 +87,14 @@ using Ring = std::vector<VisitId>;
 std::vector<Ring> findRings(const Precedence& precedence);
 
 /// The earliest step of every event when a move takes one step and a vertex may be entered in the
-/// step in which it is left; rings move together. Robot i begins no move before step
-/// `departures[i]` (empty: 0 for all), so its first one ends a step later at the soonest.
+/// step in which it is left, or `headway` steps later; rings move together. Robot i begins no move
+/// before step `departures[i]` (empty: 0 for all), so its first one ends a step later at the
+/// soonest.
 /// @return a step for each visit; that of a robot's first one is 0. Cost: O(visits).
 /// @throws Interrupted when the deadline has expired.
 std::vector<std::uint32_t> earliestSteps(const Precedence& precedence,
                                          const std::vector<std::uint32_t>& departures = {},
-                                         const Deadline& deadline = {});
+                                         const Deadline& deadline = {}, std::uint32_t headway = 0);
 
 /// The plan in which every visit begins at its step. @pre the steps keep all orders; a robot's
 /// first visit begins at 0.

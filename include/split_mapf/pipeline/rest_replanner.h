@@ -14,8 +14,9 @@ namespace split_mapf {
 
 /// How much a replan may cost. Counted in expansions, so that runs can be repeated.
 struct ReplanBudget {
-  std::uint64_t expansions = 0;  ///< states of all searches; 0: kDefaultExpansions a robot, and
-                                 ///< kLeastExpansions at least
+  /// States of all searches; what is done beside them for a visit counts as a few of them.
+  /// 0: kDefaultExpansions a robot, and kLeastExpansions at least.
+  std::uint64_t expansions = 0;
   std::uint64_t seed = 0;
   static constexpr std::uint64_t kDefaultExpansions = 1000;
   static constexpr std::uint64_t kLeastExpansions = 500000;
@@ -50,7 +51,8 @@ struct ReplanAnswer {
 /// budget, validated, and put behind the cut. It is taken when its forecast, with releases, turns
 /// and stands, is cheaper, so the execution never gets worse by what is known, and at no time is
 /// there none. With `avoid_rings` a robot of each ring is planned anew so that it does not close
-/// it, where that is possible; what is left is a joint move.
+/// it, where that is possible within half of the budget; what is left is a joint move. Then, but
+/// for maps of lanes, searches keep a headway of a step, see ReservationTable.
 /// Source: ours. Not thread-safe. Cost: the budget, and O(events).
 class RestReplanner {
  public:
@@ -63,6 +65,7 @@ class RestReplanner {
 
  private:
   const Instance& instance_;
+  const bool is_of_lanes_;
   MotionTimes times_;
   ReplanBudget budget_;
   std::uint64_t replans_ = 0;
