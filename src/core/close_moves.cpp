@@ -17,15 +17,6 @@ PlanePoint between(PlanePoint a, PlanePoint b, double part) {
   return {a.x + part * (b.x - a.x), a.y + part * (b.y - a.y)};
 }
 
-double distanceTo(PlanePoint p, PlanePoint a, PlanePoint b) {
-  const double dx = b.x - a.x;
-  const double dy = b.y - a.y;
-  const double square = dx * dx + dy * dy;
-  const double along = square > 0 ? ((p.x - a.x) * dx + (p.y - a.y) * dy) / square : 0;
-  const PlanePoint foot = between(a, b, std::clamp(along, 0.0, 1.0));
-  return std::hypot(p.x - foot.x, p.y - foot.y);
-}
-
 /// Where along a move a convex function is least.
 template <typename Function>
 double leastAt(const Function& value) {
@@ -145,6 +136,15 @@ class PairSearch {
 };
 
 }  // namespace
+
+double distanceTo(PlanePoint p, PlanePoint a, PlanePoint b) {
+  const double dx = b.x - a.x;
+  const double dy = b.y - a.y;
+  const double square = dx * dx + dy * dy;
+  const double along = square > 0 ? ((p.x - a.x) * dx + (p.y - a.y) * dy) / square : 0;
+  const PlanePoint foot = between(a, b, std::clamp(along, 0.0, 1.0));
+  return std::hypot(p.x - foot.x, p.y - foot.y);
+}
 
 double releaseFraction(PlanePoint from, PlanePoint to, PlanePoint a, PlanePoint b,
                        double distance) {

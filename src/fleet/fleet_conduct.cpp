@@ -22,6 +22,7 @@ std::vector<bool> FleetExecution::closedCells() const {
     if (takesPart(robot)) continue;
     for (VisitId v = graph_.at(robot); v <= promised_[robot]; ++v) closed[order[v].vertex] = true;
     if (robots_[robot].place != kNoVertex) closed[robots_[robot].place] = true;
+    for (const Vertex v : robots_[robot].near) closed[v] = true;
   }
   return closed;
 }

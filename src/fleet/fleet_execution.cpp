@@ -87,7 +87,7 @@ std::string toString(ReportFate fate) {
     case ReportFate::kAstray:
       break;
   }
-  return "the robot is in a cell where its route does not lead";
+  return "the robot is where its route does not lead";
 }
 
 std::string toString(Absence absence) {
@@ -118,6 +118,7 @@ void requireValid(const FleetOptions& options) {
   requireWithin(options.progress_timeout_sec, "progress_timeout", 1e-3, 1e6);
   requireWithin(options.obstacle_time_sec, "obstacle_time", 0, 1e9);
   requireWithin(options.release_ahead, "release_ahead", 1, 1000);
+  requireWithin(options.distance_m, "distance between robots", 0, 1e6);
   if (!options.moves || !options.joint_rings) return;
   throw OptionError(
       "rings joint is for robots on grids; those on a planning graph keep apart in a rotation only "

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/standing_times.h"
+#include "split_mapf/core/close_moves.h"
 #include "split_mapf/core/promises.h"
 #include "split_mapf/fleet/fleet_execution.h"
 
@@ -43,11 +44,12 @@ ReportFate FleetExecution::report(std::uint32_t robot, const RobotReport& report
 }
 
 void FleetExecution::hear(std::uint32_t robot, DriveStatus status, const std::optional<Cell>& place,
-                          double now) {
+                          double now, const std::optional<PlanePoint>& point) {
   RobotReport standing;
   standing.sequence = sequences_[graph_.at(robot)];
   standing.status = status;
   standing.place = place;
+  standing.point = point;
   report(robot, standing, now);
 }
 
@@ -95,6 +97,7 @@ void FleetExecution::lookForGoal(std::uint32_t robot, VisitId before) {
 /// A robot that keeps to its route is in a cell that it is promised. Where moves skip cells it may
 /// be in others on the way, which nobody lists.
 ReportFate FleetExecution::judgePlace(std::uint32_t robot, const RobotReport& report) {
+  if (options_.moves && report.point) return judgePoint(robot, *report.point);
   if (!report.place || !grid_->hasUnitMoves()) return ReportFate::kTaken;
   const Vertex place = grid_->vertexAt(*report.place);
   for (VisitId v = graph_.at(robot); v <= promised_[robot]; ++v) {
@@ -107,6 +110,36 @@ ReportFate FleetExecution::judgePlace(std::uint32_t robot, const RobotReport& re
     record.absence = Absence::kNone;
     dropOut(robot, Absence::kAstray);
   }
+  return ReportFate::kAstray;
+}
+
+/// Between the vertices that are promised to it it drives straight.
+bool FleetExecution::isOnItsWay(std::uint32_t robot, PlanePoint point) const {
+  const Precedence& order = graph_.precedence();
+  const auto place = [&](VisitId v) { return options_.moves->place(order[v].vertex); };
+  VisitId v = graph_.at(robot);
+  do {
+    const VisitId next = std::min(v + 1, promised_[robot]);
+    if (distanceTo(point, place(v), place(next)) <= options_.distance_m / 2) return true;
+    ++v;
+  } while (v < promised_[robot]);
+  return false;
+}
+
+/// While it strays on, what is near to it is looked up again once it has moved by as much as made
+/// it stray.
+ReportFate FleetExecution::judgePoint(std::uint32_t robot, PlanePoint point) {
+  if (options_.distance_m <= 0 || isOnItsWay(robot, point)) return ReportFate::kTaken;
+  Robot& record = robots_[robot];
+  const bool known = record.absence == Absence::kAstray && record.strayed_to &&
+                     std::hypot(record.strayed_to->x - point.x, record.strayed_to->y - point.y) <=
+                         options_.distance_m / 2;
+  if (known) return ReportFate::kAstray;
+  record.strayed_to = point;
+  // Until it has moved on by half of the distance, too.
+  record.near = options_.moves->nearTo(point, point, 1.5 * options_.distance_m);
+  record.absence = Absence::kNone;
+  dropOut(robot, Absence::kAstray);
   return ReportFate::kAstray;
 }
 
@@ -134,6 +167,8 @@ void FleetExecution::comeBack(std::uint32_t robot) {
   Robot& record = robots_[robot];
   record.absence = record.paused ? Absence::kPaused : Absence::kNone;
   record.place = kNoVertex;
+  record.strayed_to.reset();
+  record.near.clear();
   if (record.void_promise && !options_.plans_anew) renewPromise(robot);
   incident_ = true;
   closeCells();

@@ -5,10 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include "fleet/drawn_ground.h"
 #include "fleet/fleet_world.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/roadmap/leg_order.h"
 #include "support/ascii_grid.h"
+#include "support/random_plan.h"
 
 namespace split_mapf {
 namespace {
@@ -65,6 +67,66 @@ TEST(FleetExecution, TakesARobotThatStraysForAnObstacleWhereItIs) {
   // It comes back by itself.
   EXPECT_EQ(small.fleet->report(0, {0, 0, DriveStatus::kOk, Cell{0, 2}}, 2), ReportFate::kTaken);
   EXPECT_EQ(small.fleet->status(2)[0].absence, Absence::kNone);
+}
+
+/// On a planning graph cells say little: a robot may be in any on its way. Its pose does.
+TEST(FleetExecution, TakesARobotThatLeavesItsWayOnAPlanningGraphForAnObstacleWhereItIs) {
+  const test::Ground ground = test::drawGround(1);
+  RandomEngine engine(1);
+  const Plan plan = test::randomValidPlan(*ground.grid, 4, 30, engine);
+  FleetOptions options;
+  options.moves = ground.moves;
+  options.distance_m = test::distanceOn(ground);
+  FleetExecution fleet(ground.grid, {"r0", "r1", "r2", "r3"}, plan, options, 0);
+  fleet.advance(0);
+  const auto say = [&](PlanePoint at, double now) {
+    RobotReport report;
+    report.point = at;
+    return fleet.report(0, report, now);
+  };
+  const PlanePoint start = ground.moves->place(plan.paths[0].front());
+  const double off = 0.4 * options.distance_m;
+  EXPECT_EQ(say({start.x + off, start.y}, 1), ReportFate::kTaken) << "robots are not exact";
+  // Onto the way of another robot, the end of which is farthest from its own.
+  Vertex there = kNoVertex;
+  double farthest = 0;
+  for (std::uint32_t robot = 1; robot < 4; ++robot) {
+    const PlanePoint goal = ground.moves->place(plan.paths[robot].back());
+    const double far = std::hypot(goal.x - start.x, goal.y - start.y);
+    if (far > farthest) there = plan.paths[robot].back();
+    farthest = std::max(farthest, far);
+  }
+  ASSERT_GT(farthest, 4 * options.distance_m);
+  const PlanePoint strayed = ground.moves->place(there);
+  EXPECT_FALSE(fleet.closed()[there]);
+  EXPECT_EQ(say(strayed, 1), ReportFate::kAstray);
+  EXPECT_EQ(fleet.status(1)[0].absence, Absence::kAstray);
+  ASSERT_TRUE(fleet.strayedTo(0));
+  EXPECT_EQ(fleet.strayedTo(0)->x, strayed.x);
+  EXPECT_TRUE(fleet.closed()[there]);
+  // Whom that keeps from its goal is not led there.
+  Executor executor(1);
+  const Planner planner(builtinSolvers(), executor);
+  PlanRequest request;
+  request.split = "none";
+  const auto question = fleet.ask(1);
+  ASSERT_TRUE(question);
+  EXPECT_TRUE(question->anew);
+  fleet.take(answerFleet(*question, planner, request, {}), 1);
+  for (std::uint32_t robot = 1; robot < 4; ++robot) {
+    for (const RouteStep& step : fleet.route(robot, 100)) {
+      EXPECT_TRUE(step.released || !fleet.closed()[step.vertex]) << "robot " << robot;
+    }
+  }
+  // It shakes: that is no news.
+  EXPECT_EQ(say({strayed.x + off, strayed.y}, 1.1), ReportFate::kAstray);
+  EXPECT_EQ(fleet.strayedTo(0)->x, strayed.x);
+  EXPECT_EQ(say({strayed.x, strayed.y + 2 * off}, 1.2), ReportFate::kAstray);
+  EXPECT_GT(fleet.strayedTo(0)->y, strayed.y) << "it strays on";
+  EXPECT_EQ(say(start, 2), ReportFate::kTaken);
+  EXPECT_EQ(fleet.status(2)[0].absence, Absence::kNone);
+  EXPECT_FALSE(fleet.strayedTo(0));
+  EXPECT_FALSE(fleet.closed()[there]);
 }
 
 TEST(FleetExecution, LeadsABlockedRobotElsewhereByVisitsWithNewNumbers) {

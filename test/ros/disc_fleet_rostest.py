@@ -16,7 +16,8 @@ from nav_msgs.msg import OccupancyGrid
 from fleet_case import FleetCase
 from move_clients import connect, goal_of, task
 from ros_processes import PATIENCE, SentGoal, action_client, start_program, wait_until
-from split_mapf.msg import MultiRobotPlan, PlanOutcome, PlanPathsGoal, RobotState, RobotTask
+from split_mapf.msg import (MultiRobotPlan, PlanOutcome, PlanPathsGoal, RobotProgress,
+                            RobotState, RobotTask)
 from split_mapf.srv import BlockCells, PauseRobots
 
 RADIUS = 0.3
@@ -121,6 +122,47 @@ class DiscFleet(FleetCase):
         self.assertEqual(goal.result().outcome, PlanOutcome.SUCCEEDED, goal.result().message)
         self.assertEqual(self.count(RobotState.ARRIVED), self.ROBOTS)
         for path in self.plan.paths:
+            self.assert_at_goal(path)
+        self.assert_kept_apart()
+
+    def play(self, path, aside):
+        """A robot that stands where its path begins, so far from there as `aside` says [m]. The
+        other robots of the plan are fakes."""
+        others = copy.deepcopy(self.plan)
+        others.paths = [other for other in others.paths if other.robot_id != path.robot_id]
+        self.plan_topic.publish(others)
+        self.addCleanup(self.plan_topic.publish, self.plan)
+        topic = rospy.Publisher("progress", RobotProgress, queue_size=10)
+        self.addCleanup(topic.unregister)
+
+        def report(_event):
+            plan_ids = [state.plan_id for state in self.states.messages[-1:]]
+            message = RobotProgress(robot_id=path.robot_id, plan_id="".join(plan_ids))
+            message.pose.header.frame_id = "map"
+            message.pose.header.stamp = rospy.Time.now()
+            message.pose.pose = copy.deepcopy(path.start)
+            message.pose.pose.position.y += aside[0]
+            topic.publish(message)
+
+        timer = rospy.Timer(rospy.Duration(0.05), report)
+        self.addCleanup(timer.shutdown)
+
+    def test_goes_on_without_a_robot_that_left_its_way(self):
+        fleet = self.start_fleet()
+        strayed = self.plan.paths[0]
+        aside = [0.0]
+        self.play(strayed, aside)
+        self.start_robots(speed=SPEED)
+        goal = self.send()
+        self.assertTrue(wait_until(lambda: len(self.plan_ids()) == 1, PATIENCE), fleet.output())
+        aside[0] = 2 * RADIUS
+        self.assertTrue(goal.wait_for_end(PATIENCE), fleet.output())
+        faults = {fault.robot_id: fault.message for fault in goal.result().faults}
+        self.assertIn("left", faults[strayed.robot_id])
+        # Its neighbours may have no way past it.
+        arrived = [path for path in self.plan.paths if path.robot_id not in faults]
+        self.assertGreaterEqual(len(arrived), self.ROBOTS - 3, goal.result().message)
+        for path in arrived:
             self.assert_at_goal(path)
         self.assert_kept_apart()
 

@@ -81,6 +81,9 @@ class CloseMoves {
   std::vector<Close> close_;
 };
 
+/// Of a place from the straight way between two others [m]; these may be the same.
+double distanceTo(PlanePoint p, PlanePoint a, PlanePoint b);
+
 /// The part of a move from `from` to `to` after which the rest of it keeps the distance from the
 /// straight way between `a` and `b`; 0 where it never comes nearer.
 /// @return above 1 where even its end does not keep the distance.

@@ -32,6 +32,9 @@ struct FleetOptions {
   /// Of a planning graph: then each move has releases of its own, and `release` means nothing; with
   /// it no joint rings. Null: a grid.
   std::shared_ptr<const CloseMoves> moves;
+  /// That centres keep on the planning graph [m]. Whose pose is farther than half of it from the
+  /// way that is promised to it has strayed. 0: poses are not judged there.
+  double distance_m = 0;
   /// Whether another plan is made where this one cannot be carried out. Without, its order stays:
   /// a robot that cannot go on stands, and it is finished when no robot can.
   bool plans_anew = true;
@@ -103,7 +106,8 @@ class FleetExecution {
   // --- What happens ---
   ReportFate report(std::uint32_t robot, const RobotReport& report, double now);
   /// The robot is there, but has not begun on its route: it stands where that begins.
-  void hear(std::uint32_t robot, DriveStatus status, const std::optional<Cell>& place, double now);
+  void hear(std::uint32_t robot, DriveStatus status, const std::optional<Cell>& place, double now,
+            const std::optional<PlanePoint>& point = {});
   /// Vertices that no robot may be sent to, beside those where absent robots stand.
   void setBlocked(const std::vector<bool>& blocked);
   /// Vertices where robots stand that are not of the fleet: no robot may be sent there either. They
@@ -165,6 +169,10 @@ class FleetExecution {
   /// The vertices from the one that a robot came to last to the last one promised to it: between
   /// them it is. Cost: O(visits promised).
   std::vector<Vertex> ground(std::uint32_t robot) const;
+  /// On a planning graph: where a robot is that strayed from its way [m]; nothing: it did not.
+  const std::optional<PlanePoint>& strayedTo(std::uint32_t robot) const {
+    return robots_[robot].strayed_to;
+  }
   /// Whether nothing will happen any more: all have arrived, but those that take no part; or no
   /// plan could be made again and again, see trouble().
   bool isFinished() const;
@@ -197,7 +205,10 @@ class FleetExecution {
     bool void_promise = false;     ///< it stands, and waits for other visits
     bool tried_elsewhere = false;  ///< since it is blocked
     Vertex came_from = kNoVertex;
-    Vertex place = kNoVertex;  ///< where it strayed to
+    // Where it strayed to, and on a planning graph what is near to it.
+    Vertex place = kNoVertex;
+    std::optional<PlanePoint> strayed_to;
+    std::vector<Vertex> near;
     std::uint32_t next_sequence = 0;
     // Of a rolling fleet.
     std::uint32_t number = 0;  ///< its own, whoever leaves
@@ -222,6 +233,8 @@ class FleetExecution {
   void lookForGoal(std::uint32_t robot, VisitId before);
   ReportFate takeProgress(std::uint32_t robot, const RobotReport& report, double now);
   ReportFate judgePlace(std::uint32_t robot, const RobotReport& report);
+  ReportFate judgePoint(std::uint32_t robot, PlanePoint point);
+  bool isOnItsWay(std::uint32_t robot, PlanePoint point) const;
   std::optional<VisitId> visitOf(std::uint32_t robot, std::uint32_t sequence) const;
   void takeStatus(std::uint32_t robot, DriveStatus status, double now);
   void dropOut(std::uint32_t robot, Absence absence);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "split_mapf/core/grid.h"
+#include "split_mapf/core/release_fraction.h"
 
 namespace split_mapf {
 
@@ -22,7 +23,8 @@ struct RobotReport {
   std::uint32_t sequence = 0;  ///< the number of the last visit that it has come to
   double fraction = 0;         ///< of its move out of it, 0 to 1
   DriveStatus status = DriveStatus::kOk;
-  std::optional<Cell> place;  ///< the cell in which its pose lies; nothing: it gave none
+  std::optional<Cell> place;             ///< the cell in which its pose lies; nothing: it gave none
+  std::optional<PlanePoint> point = {};  ///< the same on a planning graph [m]
 };
 
 /// What became of a report. Only kTaken ones move the robot.
@@ -32,7 +34,7 @@ enum class ReportFate {
   kNotReleased,  ///< of a visit that it has no leave for
   kNoSuchVisit,  ///< of a visit that was planned away, or never was
   kNotANumber,   ///< the fraction is not a number from 0 to 1, or the status none
-  kAstray,       ///< the robot is in a cell where its route does not lead
+  kAstray,       ///< the robot is where its route does not lead
 };
 std::string toString(ReportFate fate);
 

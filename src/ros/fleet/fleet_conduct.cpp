@@ -13,6 +13,7 @@
 #include "ros/fleet/fleet_server.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
+#include "split_mapf/roadmap/map_frame.h"
 #include "split_mapf/ros/orientation.h"
 #include "split_mapf/ros/plan_messages.h"
 
@@ -40,7 +41,8 @@ void FleetServer::takeProgress(const RobotProgress& message) {
   Known& known = known_[message.robot_id];
   known.heard = time;
   known.status = message.status;
-  const std::optional<Cell> place = placeOf(message.pose);
+  const std::optional<geometry_msgs::Point> at = poseOnMap(message.pose);
+  const std::optional<Cell> place = cellAt(at);
   if (!message.pose.header.frame_id.empty()) known.pose = message.pose;
   if (place) known.place = place;
   if (!fleet_) return;
@@ -49,7 +51,7 @@ void FleetServer::takeProgress(const RobotProgress& message) {
   const auto status = static_cast<DriveStatus>(message.status);
   if (robot == index_.end() || message.plan_id != plan_id_) {
     ++counts_.of_others;
-    if (robot != index_.end()) fleet_->hear(robot->second, status, place, time);
+    if (robot != index_.end()) fleet_->hear(robot->second, status, place, time, rasterPoint(at));
     return;
   }
   RobotReport report;
@@ -57,6 +59,7 @@ void FleetServer::takeProgress(const RobotProgress& message) {
   report.fraction = message.fraction;
   report.status = status;
   report.place = place;
+  report.point = rasterPoint(at);
   const ReportFate fate = fleet_->report(robot->second, report, time);
   if (fate != ReportFate::kTaken) countRefused(message, toString(fate));
 }
@@ -99,13 +102,30 @@ void FleetServer::markNear(std::vector<bool>& cells, Cell cell, double distance_
 
 /// The cell in which a pose lies; nothing where there is none, or no map yet.
 std::optional<Cell> FleetServer::placeOf(const geometry_msgs::PoseStamped& pose) const {
+  return cellAt(poseOnMap(pose));
+}
+
+std::optional<Cell> FleetServer::cellAt(const std::optional<geometry_msgs::Point>& point) const {
+  if (!point) return std::nullopt;
+  return grid_->geometry.cellAt(*point);
+}
+
+/// On the raster of a planning graph; nothing for robots on a grid.
+std::optional<PlanePoint> FleetServer::rasterPoint(
+    const std::optional<geometry_msgs::Point>& point) const {
+  if (!point || !discs_) return std::nullopt;
+  const MapPoint at = toRaster(frameOf(grid_->geometry), {point->x, point->y});
+  return PlanePoint{at.x, at.y};
+}
+
+/// A pose in the frame of the map; nothing where there is none, or no map yet.
+std::optional<geometry_msgs::Point> FleetServer::poseOnMap(
+    const geometry_msgs::PoseStamped& pose) const {
   if (pose.header.frame_id.empty() || !grid_) return std::nullopt;
   const MapGeometry& geometry = grid_->geometry;
-  if (stripSlash(pose.header.frame_id) == geometry.frame()) {
-    return geometry.cellAt(pose.pose.position);
-  }
+  if (stripSlash(pose.header.frame_id) == geometry.frame()) return pose.pose.position;
   try {
-    return geometry.cellAt(transformer_.forGoal(Deadline(0))(pose, geometry.frame()));
+    return transformer_.forGoal(Deadline(0))(pose, geometry.frame());
   } catch (const TransformFailure& failure) {
     ROS_WARN_THROTTLE(5, "a robot's pose is left out: %s", failure.what());
     return std::nullopt;

@@ -34,6 +34,7 @@ FleetPart FleetServer::partOf(const std::vector<std::string>& ids) {
   for (const auto& [id, way] : left_out_) ways.push_back(way);
   FleetPart part = discs_->part(part_, ids, ways);
   part_options_.moves = part.moves;
+  part_options_.distance_m = discs_->distance();
   part_options_.plans_anew = part.plans_anew;
   return part;
 }
@@ -80,6 +81,7 @@ void FleetServer::leaveOut(std::uint32_t robot, const std::vector<FleetRobotStat
   for (const Vertex v : fleet_->ground(robot)) {
     way.push_back(fleet_->graph().closeMoves()->place(v));
   }
+  if (const auto& strayed_to = fleet_->strayedTo(robot)) way.push_back(*strayed_to);
   for (RobotFault& fault : faultsOf(*fleet_, status, *grid_)) {
     if (fault.robot_id == id) return faults_.push_back(std::move(fault));
   }

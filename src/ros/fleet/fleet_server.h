@@ -151,6 +151,9 @@ class FleetServer {
   // Robots.
   void takeProgress(const RobotProgress& message);
   std::optional<Cell> placeOf(const geometry_msgs::PoseStamped& pose) const;
+  std::optional<Cell> cellAt(const std::optional<geometry_msgs::Point>& point) const;
+  std::optional<PlanePoint> rasterPoint(const std::optional<geometry_msgs::Point>& point) const;
+  std::optional<geometry_msgs::Point> poseOnMap(const geometry_msgs::PoseStamped& pose) const;
   void countRefused(const RobotProgress& message, const std::string& why);
   void closeCells();
   void markNear(std::vector<bool>& cells, Cell cell, double distance_m);
