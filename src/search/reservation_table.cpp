@@ -5,7 +5,7 @@
 namespace split_mapf {
 
 ReservationTable::ReservationTable(std::uint32_t vertices, std::uint32_t headway)
-    : paths_(vertices, headway), bits_(vertices, 0) {}
+    : paths_(vertices, headway), bits_(vertices, 0), held_(headway > 0 ? vertices : 0, 0) {}
 
 ReservationTable::ReservationTable(std::uint32_t vertices, const Plan& plan, std::uint32_t headway)
     : ReservationTable(vertices, headway) {
@@ -86,12 +86,25 @@ std::uint32_t ReservationTable::freeSince(Vertex v, std::uint32_t t) const {
   return 0;
 }
 
+/// Who would be there in the step before a visit would not have left for long enough.
+void ReservationTable::showHeld(Vertex v, std::uint32_t word) {
+  const std::uint64_t held = heldSteps(v, word);
+  bits_[std::size_t{v} * words_ + word] = held | held >> 1U | heldSteps(v, word + 1) << 63U;
+}
+
+void ReservationTable::toggleHeld(Vertex v, std::uint32_t t) {
+  const std::uint32_t word = t / 64;
+  held_[std::size_t{v} * words_ + word] ^= std::uint64_t{1} << (t % 64);
+  showHeld(v, word);
+  if (t % 64 == 0 && word > 0) showHeld(v, word - 1);
+}
+
 /// Steps from .. to-1. A robot is alone where it is, so its bits are all unset or all set.
 void ReservationTable::flipSteps(const Path& path, std::uint32_t from, std::uint32_t to) {
   for (std::uint32_t t = from; t < to; ++t) {
-    toggleStep(positionAt(path, t), t);
-    if (headway() == 0 || t == 0 || positionAt(path, t) == positionAt(path, t - 1)) continue;
-    toggleStep(path[t - 1], t);
+    const Vertex at = positionAt(path, t);
+    toggleStep(at, t);
+    if (headway() > 0 && t > 0 && positionAt(path, t - 1) != at) toggleStep(path[t - 1], t);
   }
 }
 
@@ -100,9 +113,14 @@ void ReservationTable::flip(const Path& path, std::uint32_t from) {
   const std::uint32_t size = std::max(static_cast<std::uint32_t>(path.size()), from);
   flipSteps(path, from, size);
   // At its goal for good.
-  std::uint64_t* const row = bits_.data() + std::size_t{path.back()} * words_;
+  std::vector<std::uint64_t>& bits = headway() > 0 ? held_ : bits_;
+  std::uint64_t* const row = bits.data() + std::size_t{path.back()} * words_;
   if (size % 64 != 0) row[size / 64] ^= ~std::uint64_t{0} << (size % 64);
   for (std::uint32_t word = (size + 63) / 64; word < words_; ++word) row[word] = ~row[word];
+  if (headway() == 0) return;
+  for (std::uint32_t word = size / 64 - (size >= 64 ? 1 : 0); word < words_; ++word) {
+    showHeld(path.back(), word);
+  }
 }
 
 void ReservationTable::coverSteps(std::size_t steps) {
@@ -110,15 +128,18 @@ void ReservationTable::coverSteps(std::size_t steps) {
   const auto needed = static_cast<std::uint32_t>((steps + 63) / 64);
   const std::uint32_t words = std::max(needed, words_ + words_ / 4 + 1);
   const std::size_t vertices = bits_.size() / words_;
-  std::vector<std::uint64_t> bits(vertices * words);
-  for (std::size_t v = 0; v < vertices; ++v) {
-    const auto row = bits_.begin() + static_cast<std::ptrdiff_t>(v * words_);
-    const auto end =
-        std::copy(row, row + words_, bits.begin() + static_cast<std::ptrdiff_t>(v * words));
-    std::fill(end, bits.begin() + static_cast<std::ptrdiff_t>((v + 1) * words),
-              everAfter(row[words_ - 1]));
+  for (std::vector<std::uint64_t>* const known : {&bits_, &held_}) {
+    if (known->empty()) continue;
+    std::vector<std::uint64_t> bits(vertices * words);
+    for (std::size_t v = 0; v < vertices; ++v) {
+      const auto row = known->begin() + static_cast<std::ptrdiff_t>(v * words_);
+      const auto end =
+          std::copy(row, row + words_, bits.begin() + static_cast<std::ptrdiff_t>(v * words));
+      std::fill(end, bits.begin() + static_cast<std::ptrdiff_t>((v + 1) * words),
+                everAfter(row[words_ - 1]));
+    }
+    *known = std::move(bits);
   }
-  bits_ = std::move(bits);
   words_ = words;
 }
 

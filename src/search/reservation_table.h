@@ -40,6 +40,7 @@ class ReservationTable {
   /// Closes a vertex for one step at which nobody is there, or opens it again: no path of the
   /// table, but none that is searched for leads there. @pre t is no later than lastChange().
   void toggleStep(Vertex v, std::uint32_t t) {
+    if (headway() > 0) return toggleHeld(v, t);
     bits_[std::size_t{v} * words_ + t / 64] ^= std::uint64_t{1} << (t % 64);
   }
 
@@ -54,11 +55,7 @@ class ReservationTable {
   const std::vector<Stay>& at(Vertex v) const { return paths_.at(v); }
   /// Bit i: who is at `v` at step 64 * word + i is in the way of somebody, or in somebody's. Any
   /// word may be asked for.
-  std::uint64_t taken(Vertex v, std::uint32_t word) const {
-    const std::uint64_t held = heldSteps(v, word);
-    // Who would be there in the step before a visit would not have left for long enough.
-    return headway() == 0 ? held : held | held >> 1U | heldSteps(v, word + 1) << 63U;
-  }
+  std::uint64_t taken(Vertex v, std::uint32_t word) const { return wordOf(bits_, v, word); }
 
   bool isTaken(Vertex v, std::uint32_t t) const { return (taken(v, t / 64) >> (t % 64) & 1U) != 0; }
   /// The first step after `t` at which somebody is at `v`; last + 1 if nobody is until step `last`.
@@ -77,10 +74,15 @@ class ReservationTable {
  private:
   // After the last step of the bits nothing changes any more.
   static std::uint64_t everAfter(std::uint64_t last_word) { return 0 - (last_word >> 63U); }
-  std::uint64_t heldSteps(Vertex v, std::uint32_t word) const {
-    const std::uint64_t* const row = bits_.data() + std::size_t{v} * words_;
+  std::uint64_t wordOf(const std::vector<std::uint64_t>& bits, Vertex v, std::uint32_t word) const {
+    const std::uint64_t* const row = bits.data() + std::size_t{v} * words_;
     return word < words_ ? row[word] : everAfter(row[words_ - 1]);
   }
+  std::uint64_t heldSteps(Vertex v, std::uint32_t word) const {
+    return wordOf(headway() > 0 ? held_ : bits_, v, word);
+  }
+  void toggleHeld(Vertex v, std::uint32_t t);
+  void showHeld(Vertex v, std::uint32_t word);
   void coverSteps(std::size_t steps);
   void flip(const Path& path, std::uint32_t from);
   void flipSteps(const Path& path, std::uint32_t from, std::uint32_t to);
@@ -88,6 +90,7 @@ class ReservationTable {
   PathTable paths_;
   std::uint32_t words_ = 1;  // of a vertex
   std::vector<std::uint64_t> bits_;
+  std::vector<std::uint64_t> held_;  // of these who is there or has just left; with a headway only
 };
 
 }  // namespace split_mapf
