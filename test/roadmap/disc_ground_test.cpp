@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -15,7 +16,7 @@ constexpr double kSideM = 0.1;
 
 /// Two rooms of 4 m x 4 m side by side, a wall of one cell between them.
 std::shared_ptr<const ObstacleRaster> twoRooms() {
-  std::vector<bool> free(81 * 40, true);
+  std::vector<bool> free(std::size_t{81} * 40, true);
   for (int y = 0; y < 40; ++y) free[y * 81 + 40] = false;
   return std::make_shared<const ObstacleRaster>(rasterOf(81, 40, free, kSideM));
 }
