@@ -29,6 +29,8 @@ using namespace rolling;
 // where more than two cells in five are taken, and everybody stands for long, it comes later.
 constexpr std::uint32_t kPatience = 3;
 constexpr std::uint32_t kCrowdedPatience = 10;
+// Where a crowd flows, what is known is better than anything made anew.
+constexpr std::uint32_t kSlowWindows = 2;
 // Who gains nothing counts for more: once more every so many steps.
 constexpr std::uint32_t kWeightEvery = 5;
 constexpr std::uint32_t kMostWeight = 50;
@@ -93,7 +95,7 @@ class Rolling::Run {
     // All that a valid window does not need waits until one is there.
     if (!improver_knows_) {
       if (!stuck_.empty()) addEscorts();
-      if (is_crowded_) base_.renew(order_, window_);
+      if (is_crowded_ && is_slow_) base_.renew(order_, window_);
       improver_.begin(window_);
     }
     improver_knows_ = true;
@@ -151,6 +153,7 @@ class Rolling::Run {
     findSlopes(question);
     cut_off_.clear();
     stuck_.clear();
+    is_slow_ = false;
     wanted_.clear();
     window_.itineraries.assign(question.robots.size(), Itinerary());
     for (std::uint32_t robot = 0; robot < question.robots.size(); ++robot) {
@@ -171,6 +174,7 @@ class Rolling::Run {
                   Itinerary& itinerary) {
     const std::uint32_t stuck = progress_.stuckFor(asked.id, now_);
     itinerary.weight = 1 + std::min(kMostWeight, stuck / kWeightEvery);
+    is_slow_ = is_slow_ || stuck >= kSlowWindows * options_.window;
     if (stuck < patience_ * options_.window) return;
     stuck_.push_back({robot, stuck, &slope, progress_.best(asked.id)});
   }
@@ -280,6 +284,7 @@ class Rolling::Run {
   std::vector<WindowStart> starts_;
   FleetChecker checker_;
   bool is_crowded_ = false;
+  bool is_slow_ = false;                // somebody has gained nothing for kSlowWindows
   std::uint32_t patience_ = kPatience;  // [windows]
   std::uint64_t now_ = 0;               // [steps]
   std::uint64_t expansions_ = 0;
