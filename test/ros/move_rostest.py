@@ -14,7 +14,7 @@ from fleet_case import FleetCase
 from move_clients import PlainClient, connect, distance, free_cells, goal_of, task
 from ros_processes import SentGoal, wait_until
 from split_mapf.msg import PlanOutcome, RobotState, RobotTask
-from split_mapf.srv import AddRobot, RemoveRobot
+from split_mapf.srv import AddRobot, BlockCells, RemoveRobot
 
 PATIENCE = 60
 
@@ -142,6 +142,20 @@ class Move(FleetCase):
         goal.options.time_limit = 0.3
         self.assertEqual(self.end_of(SentGoal(self.client, goal))[1].outcome, PlanOutcome.TIMEOUT)
         self.assert_kept_apart()
+
+    def test_cells_closed_and_opened_a_tick_after_the_answer(self):
+        self.start()
+        self.assertEqual(self.end_of(self.send(task("r1", *self.farther("r1", 3))))[0], "SUCCEEDED")
+        block = rospy.ServiceProxy("fleet/block_cells", BlockCells)
+        for _ in range(3):
+            x, y = self.farther("r1", 2)
+            cell = int(y) * self.map_message.info.width + int(x)
+            self.assertTrue(block([cell], True).ok)
+            result = self.end_of(self.send(task("r1", x, y)))[1]
+            self.assertEqual(result.outcome, PlanOutcome.BLOCKED_CELL, result.message)
+            self.assertTrue(block([cell], False).ok)
+            state, result = self.end_of(self.send(task("r1", x, y)))
+            self.assertEqual(state, "SUCCEEDED", result.message)
 
     def test_ends_each_goal_of_many_clients_once(self):
         fleet = self.start("_max_tasks:=400")

@@ -30,6 +30,8 @@ bool FleetServer::blockCells(BlockCells::Request& request, BlockCells::Response&
     if (request.blocked) blocked_.insert(cell);
     if (!request.blocked) blocked_.erase(cell);
   }
+  // A goal of ~move is looked at before the next tick.
+  if (fleet_ && index_.size() == fleet_->robots()) closeCells();
   response.ok = true;
   response.message = counted(blocked_.size(), "cell") + " of the map are blocked by order";
   return true;
