@@ -35,12 +35,12 @@ declare -rA allowed=(
   [python]="$planning"
   [ros/convert]="$planning"
   [ros/client]='core'
-  [ros/server]="$planning ros/convert"
+  [ros/server]="$planning workers ros/convert"
   [ros/replay]="$planning ros/convert"
   [ros/fleet]="$planning ros/convert"
   [ros/scene]="$planning ros/convert"
   [rviz]="$planning ros/convert ros/replay ros/scene"
-  [node]="$planning ros/convert ros/server ros/replay ros/fleet"
+  [node]="$planning workers ros/convert ros/server ros/replay ros/fleet"
 )
 readonly ros_packages='actionlib|catkin|diagnostic_updater|dynamic_reconfigure|interactive_markers|message_filters|nodelet|pluginlib|ros|rosbag|roscpp|rosconsole|rviz|tf|tf2|tf2_ros|tf2_[a-z_]*|[a-z_]*_msgs'
 

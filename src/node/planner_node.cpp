@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <string>
 
 #include <ros/ros.h>
@@ -24,6 +25,7 @@
 #include "split_mapf/parallel/executor.h"
 #include "split_mapf/pipeline/planner.h"
 #include "split_mapf/plugin/methods.h"
+#include "workers/workers.h"
 
 namespace {
 
@@ -37,6 +39,13 @@ constexpr std::uint32_t kArenas = 4;
 std::uint32_t workersFor(const split_mapf::ServerOptions& options) {
   if (options.goal.plan.threads != 0) return options.goal.plan.threads;
   return split_mapf::Executor::machineThreads();
+}
+
+/// Null: nobody else is asked.
+std::unique_ptr<split_mapf::RemoteWorkers> connectFor(const split_mapf::ServerOptions& options) {
+  if (options.workers.empty()) return nullptr;
+  // Those of plug-ins are known to this process alone.
+  return split_mapf::connectWorkers(options.workers, split_mapf::availableSolvers());
 }
 
 /// Ends the process where a plug-in's thread does not stop: it may use what is taken down next.
@@ -61,7 +70,8 @@ void run(split_mapf::NodeContext& context) {
   split_mapf::Methods methods;
   methods.solvers = split_mapf::availableSolvers();
   plugins.load(options.solver_plugins, methods);
-  const split_mapf::Planner planner(methods.solvers, executor, methods.splitters);
+  const std::unique_ptr<split_mapf::RemoteWorkers> remote = connectFor(options);
+  const split_mapf::Planner planner(methods.solvers, executor, methods.splitters, remote.get());
   planner.requireValid(options.goal.plan);
 
   const split_mapf::MapSource maps(context.node, options.map_file);
@@ -75,7 +85,7 @@ void run(split_mapf::NodeContext& context) {
   const split_mapf::QueueLimits limits{options.max_queued_goals, workers};
   split_mapf::PlanServer server(context.private_node, goal_planner, publisher, limits);
   const split_mapf::ServerDiagnostics diagnostics(context.node, context.private_node, server,
-                                                  limits, workers);
+                                                  limits, workers, remote.get());
 
   const split_mapf::Reconfiguration reconfiguration(context.private_node, planner, defaults);
 

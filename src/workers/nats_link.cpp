@@ -20,6 +20,11 @@ constexpr std::int64_t kMostDeliveries = 3;
 // What nobody wants any more goes by itself.
 constexpr std::int64_t kOldest = 3600 * kSecond;
 constexpr std::int64_t kReconnectWaitMs = 500;
+// A server that is frozen is noticed after three of these.
+constexpr std::int64_t kPingMs = 2000;
+constexpr int kPingsOut = 2;
+// Of what is said to it meanwhile, once the buffers of the connection are full.
+constexpr std::int64_t kWriteMs = 500;
 constexpr std::int64_t kAnswerMs = 1000;  // of the server to requests about the queue
 
 std::int64_t inMs(double seconds) {
@@ -40,6 +45,9 @@ Options optionsFor(const std::string& url, double connect_sec) {
   if (status == NATS_OK) status = natsOptions_SetMaxReconnect(made, -1);
   if (status == NATS_OK) status = natsOptions_SetReconnectWait(made, kReconnectWaitMs);
   if (status == NATS_OK) status = natsOptions_SetName(made, "split_mapf");
+  if (status == NATS_OK) status = natsOptions_SetPingInterval(made, kPingMs);
+  if (status == NATS_OK) status = natsOptions_SetMaxPingsOut(made, kPingsOut);
+  if (status == NATS_OK) status = natsOptions_SetWriteDeadline(made, kWriteMs);
   // What was said to a server that has gone is of no use to the next.
   if (status == NATS_OK) status = natsOptions_SetReconnectBufSize(made, 0);
   // The default writes to standard error.
@@ -135,6 +143,11 @@ NatsLink::~NatsLink() {
 }
 
 void NatsLink::close() { natsConnection_Close(connection_); }
+
+void NatsLink::requireConnected() const {
+  if (natsConnection_Status(connection_) == NATS_CONN_STATUS_CONNECTED) return;
+  throw LinkError(place_ + ": the connection has ended", false);
+}
 
 std::size_t NatsLink::mostBytes() const {
   return static_cast<std::size_t>(

@@ -77,6 +77,8 @@ class NatsLink {
 
   /// Wakes readers, which read nothing more.
   void close();
+  /// @throws LinkError while the server is away, or is silent for some seconds.
+  void requireConnected() const;
   /// Bytes that the server takes in a message.
   std::size_t mostBytes() const;
   /// Says something to who listens, or puts it into the queue, by its subject. False where it is

@@ -165,6 +165,7 @@ void WorkerClient::listen(const std::shared_ptr<NatsLink>& link) {
   Clock::time_point last_sign = Clock::now();
   for (;;) {
     if (const auto message = answers->next(kPollSec)) take(*message);
+    link->requireConnected();
     const std::lock_guard<std::mutex> lock(mutex_);
     if (closing_) return;
     if (batches_.empty() || Clock::now() - last_sign < kSignOfLife) continue;

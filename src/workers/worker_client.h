@@ -43,7 +43,7 @@ class WorkerClient : public RemoteWorkers {
   void run();
   /// Null while there is no server. Tries again until this object ends.
   std::shared_ptr<NatsLink> connect();
-  /// Until this object ends. @throws LinkError when the connection has.
+  /// Until this object ends. @throws LinkError when the server goes.
   void listen(const std::shared_ptr<NatsLink>& link);
   void take(const LinkMessage& message);
   /// The link, after a moment where it is just being made; null: there is none.

@@ -69,7 +69,9 @@ TEST(FleetOptions, KnowTheirOwnAndThePlanners) {
 TEST(FleetOptions, SayWhichOfThePlannersHaveNoMeaning) {
   XmlRpc::XmlRpcValue parameters = parametersOf("objective", "makespan");
   parameters["time_limit"] = 5.0;
-  EXPECT_EQ(findUnknownFleetParameters(parameters), std::vector<std::string>{"objective"});
+  parameters["workers"] = "nats://host";
+  EXPECT_EQ(findUnknownFleetParameters(parameters),
+            (std::vector<std::string>{"objective", "workers"}));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 import importlib.util
 import os
 import signal
+import tempfile
 import unittest
 
 import roslib.packages
@@ -12,10 +13,20 @@ import rospy
 import rosunit
 from diagnostic_msgs.msg import DiagnosticArray
 
-from ros_processes import (Recorder, SentGoal, action_client, hard_goal, start_program, wait_until,
-                           warehouse_goal)
+from ros_processes import (Recorder, SentGoal, action_client, crowd_goal, hard_goal, nats_server,
+                           start_nats_server, start_program, wait_until, warehouse_goal)
 from split_mapf.msg import PlanOutcome
 from split_mapf.srv import ListSolvers
+
+
+def latest(diagnostics):
+    """What the planner reported last."""
+    for message in reversed(diagnostics.messages):
+        for status in message.status:
+            if status.name == "split_mapf: planner":
+                return dict(((pair.key, pair.value) for pair in status.values),
+                            level=status.level, summary=status.message)
+    return {}
 
 
 class Lifecycle(unittest.TestCase):
@@ -74,6 +85,7 @@ class Lifecycle(unittest.TestCase):
                                    ("_solver:=oracle", "oracle"),
                                    ("_split:=8q", "8q"),
                                    ("_map_file:=/nowhere.map", "/nowhere.map"),
+                                   ("_workers:=localhost", "workers: "),
                                    ("_max_queued_goals:=0", "~max_queued_goals")):
             planner = self.start(argument)
             self.assertEqual(planner.wait(), 1, argument)
@@ -100,16 +112,9 @@ class Lifecycle(unittest.TestCase):
         client = action_client()
         for options in ({"solver": "oracle"}, {}):
             self.assertTrue(self.plan(client, **options).wait_for_end(), planner.output())
-
-        def latest():
-            for message in reversed(diagnostics.messages):
-                for status in message.status:
-                    if status.name == "split_mapf: planner":
-                        return dict(((pair.key, pair.value) for pair in status.values),
-                                    level=status.level, summary=status.message)
-            return {}
-        self.assertTrue(wait_until(lambda: latest().get("goals finished") == "2"), latest())
-        values = latest()
+        self.assertTrue(wait_until(lambda: latest(diagnostics).get("goals finished") == "2"),
+                        latest(diagnostics))
+        values = latest(diagnostics)
         self.assertEqual(values["level"], 0)
         self.assertEqual(values["summary"], "ready")
         self.assertEqual(values["workers"], "2")
@@ -119,6 +124,56 @@ class Lifecycle(unittest.TestCase):
         self.assertEqual(values["last outcomes"], "SUCCEEDED, UNKNOWN_SOLVER")
         self.assertEqual(values["plug-in searches that do not stop"], "0")
         self.assertGreater(float(values["memory [MiB]"]), 1)
+
+    def start_worker(self):
+        """With a server of its own. Returns the server and its URL."""
+        if nats_server() is None:
+            self.skipTest("no nats-server is installed")
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        server, url = start_nats_server(folder.name)
+        self.addCleanup(server.end)
+        worker = start_program("split_mapf", "worker", "--threads", "1", "--server", url)
+        self.addCleanup(worker.end)
+        if not worker.wait_for_output("ready") and "libnats" in worker.output():
+            self.skipTest("the node was built without libnats")
+        self.assertIn("ready", worker.output(), server.output())
+        return server, url
+
+    def cells_of_crowd(self, planner):
+        """Of a plan with pieces that are worth a journey to a worker."""
+        sent = SentGoal(action_client(), crowd_goal())
+        self.assertTrue(sent.wait_for_end(), planner.output())
+        result = sent.result()
+        self.assertEqual(result.outcome, PlanOutcome.SUCCEEDED, result.message)
+        self.assertGreater(result.statistics.subproblems, 1)
+        return [path.cells for path in result.plan.paths]
+
+    def test_workers_elsewhere_help_and_nobody_depends_on_them(self):
+        server, url = self.start_worker()
+        diagnostics = Recorder("/diagnostics", DiagnosticArray)
+        self.addCleanup(diagnostics.close)
+        alone = self.start_ready("_threads:=1")
+        cells = self.cells_of_crowd(alone)
+        alone.end()
+        self.assertNotIn("pieces asked of workers elsewhere", latest(diagnostics))
+        planner = self.start_ready("_threads:=1", "_workers:=" + url)
+
+        def is_answered():
+            return int(latest(diagnostics).get("pieces answered by workers elsewhere", 0)) > 0
+        for _ in range(10):  # a busy machine may have none left for the worker
+            self.assertEqual(self.cells_of_crowd(planner), cells)
+            if wait_until(is_answered, 2):
+                break
+        self.assertTrue(is_answered(), latest(diagnostics))
+        self.assertEqual(latest(diagnostics)["level"], 0)
+
+        server.end()
+        self.assertTrue(planner.wait_for_output("pieces are solved here"), planner.output())
+        self.assertEqual(self.cells_of_crowd(planner), cells)
+        self.assertTrue(wait_until(
+            lambda: latest(diagnostics)["summary"].startswith("workers elsewhere cannot be asked")))
+        self.assertEqual(latest(diagnostics)["level"], 1)
 
     def test_takes_new_defaults_for_the_next_goal(self):
         if importlib.util.find_spec("split_mapf.cfg") is None:

@@ -101,6 +101,7 @@ XmlRpcValue unusualParameters() {
   p["max_queued_goals"] = 2;
   p["publish_paths"] = true;
   p["map_file"] = "some.map";
+  p["workers"] = "nats://fleet@host:4222";
   return p;
 }
 
@@ -122,6 +123,7 @@ TEST(ServerOptions, HaveTheDefaultsOfTheInterface) {
   EXPECT_EQ(options.goal.step_duration_sec, 1);
   EXPECT_EQ(options.max_queued_goals, 8U);
   EXPECT_FALSE(options.publish_paths);
+  EXPECT_EQ(options.workers, "");
 }
 
 TEST(ServerOptions, AreWrittenInTheConfigurationFileAsTheyAre) {
@@ -132,6 +134,7 @@ TEST(ServerOptions, AreWrittenInTheConfigurationFileAsTheyAre) {
   EXPECT_EQ(options.max_queued_goals, defaults.max_queued_goals);
   EXPECT_EQ(options.publish_paths, defaults.publish_paths);
   EXPECT_EQ(options.map_file, defaults.map_file);
+  EXPECT_EQ(options.workers, defaults.workers);
   EXPECT_TRUE(findUnknownParameters(file).empty());
   // Nothing is left out of the file.
   for (const auto& entry : unusualParameters())
@@ -189,6 +192,7 @@ TEST(ServerOptions, ReadEveryParameter) {
   EXPECT_EQ(options.max_queued_goals, 2U);
   EXPECT_TRUE(options.publish_paths);
   EXPECT_EQ(options.map_file, "some.map");
+  EXPECT_EQ(options.workers, "nats://fleet@host:4222");
   EXPECT_TRUE(findUnknownParameters(unusualParameters()).empty());
 }
 
@@ -228,6 +232,7 @@ TEST(ServerOptions, NameTheParameterThatIsWrong) {
       {"max_queued_goals", XmlRpcValue(0)},
       {"publish_paths", XmlRpcValue("yes")},
       {"map_file", XmlRpcValue(false)},
+      {"workers", XmlRpcValue(4222)},
   };
   for (const auto& [name, value] : bad) {
     XmlRpcValue parameters;

@@ -1,7 +1,10 @@
 """Starts and ends programs for the rostests in python, and waits for what they do."""
 
+import glob
+import json
 import os
 import random
+import shutil
 import signal
 import subprocess
 import tempfile
@@ -79,6 +82,28 @@ def start_program(name, *arguments, env=None):
     """Starts a program of this package, as roslaunch finds it: rosrun does not look into a devel
     space that lies in the package's own build folder."""
     return Program(roslib.packages.find_node("split_mapf", name)[0], *arguments, env=env)
+
+
+def nats_server():
+    """The path of the program; None where it is not installed."""
+    return shutil.which("nats-server", path=os.environ["PATH"] + ":/usr/sbin:/usr/local/bin")
+
+
+def start_nats_server(folder):
+    """Starts one on a free port, with a queue in memory. Returns it and its URL."""
+    config = os.path.join(folder, "server.conf")
+    with open(config, "w", encoding="ascii") as file:
+        file.write('listen: "127.0.0.1:-1"\n'
+                   'jetstream { store_dir: "%s", max_memory_store: 64MB }\n' % folder)
+    server = Program(nats_server(), "-c", config, "--ports_file_dir", folder)
+
+    def ports():
+        return [name for name in glob.glob(os.path.join(folder, "*.ports"))
+                if os.path.getsize(name) > 0]
+    if not wait_until(ports):
+        raise RuntimeError("nats-server does not come up: " + server.output())
+    with open(ports()[0], encoding="ascii") as file:
+        return server, json.load(file)["nats"][0]
 
 
 def wait_until(condition, patience=PATIENCE):
@@ -166,17 +191,33 @@ def hard_robots():
 
 def hard_goal():
     """An open square full of robots: nobody finds an optimal plan within minutes."""
-    goal = PlanPathsGoal(map=free_map(HARD_SIDE))
-    for start, end in hard_robots():
+    goal = ecbs_goal(HARD_SIDE, hard_robots())
+    goal.options.split = "none"
+    goal.options.suboptimality = 1.0
+    return goal
+
+
+def crowd_goal():
+    """200 robots, planned for in pieces of a tenth of a second and more."""
+    draw = random.Random(1)
+    cells = [(x, y) for x in range(40) for y in range(40)]
+    goal = ecbs_goal(40, zip(draw.sample(cells, 200), draw.sample(cells, 200)))
+    goal.options.split = "2s4t"
+    goal.options.suboptimality = 1.02
+    return goal
+
+
+def ecbs_goal(side, robots):
+    """For robots on an open square, each with start and goal."""
+    goal = PlanPathsGoal(map=free_map(side))
+    for start, end in robots:
         task = RobotTask()
         for pose, (x, y) in ((task.start, start), (task.goal, end)):
             pose.pose.position.x, pose.pose.position.y = x + 0.5, y + 0.5
             pose.pose.orientation.w = 1.0
         goal.robots.append(task)
     goal.options.solver = "ecbs"
-    goal.options.split = "none"
     goal.options.objective = "sum_of_costs"
-    goal.options.suboptimality = 1.0
     return goal
 
 

@@ -121,6 +121,7 @@ ServerOptions readAll(ParameterReader& reader) {
   reader.read("publish_paths", options.publish_paths);
   reader.read("map_file", options.map_file);
   reader.read("solver_plugins", options.solver_plugins);
+  reader.read("workers", options.workers);
   return options;
 }
 

@@ -32,6 +32,7 @@ struct ServerOptions {
   bool publish_paths = false;
   std::string map_file;                     ///< published on `map` when set
   std::vector<std::string> solver_plugins;  ///< classes of other packages, see PluginLoader
+  std::string workers;  ///< URL of the server of processes that help with pieces; empty: none
 };
 
 /// Whether every number has a meaning, whoever asks for it.
