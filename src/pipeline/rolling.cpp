@@ -54,6 +54,11 @@ RollingOptions checked(const RollingOptions& options) {
   return options;
 }
 
+/// Whether a robot is bound to steps, and all in one cell, as one that is delayed.
+bool mayOnlyStand(const Path& prefix) {
+  return prefix.size() > 1 && std::equal(prefix.begin() + 1, prefix.end(), prefix.begin());
+}
+
 }  // namespace
 
 class Rolling::Run {
@@ -172,8 +177,11 @@ class Rolling::Run {
 
   void weighDelay(const RollingRobot& asked, std::uint32_t robot, const Slope& slope,
                   Itinerary& itinerary) {
+    // Not one that moves by what it is bound to, step by step: it may gain nothing all the same.
+    const bool is_excused = mayOnlyStand(asked.prefix) && progress_.excuse(asked.id);
     const std::uint32_t stuck = progress_.stuckFor(asked.id, now_);
     itinerary.weight = 1 + std::min(kMostWeight, stuck / kWeightEvery);
+    if (is_excused) return;
     is_slow_ = is_slow_ || stuck >= kSlowWindows * options_.window;
     if (stuck < patience_ * options_.window) return;
     stuck_.push_back({robot, stuck, &slope, progress_.best(asked.id)});

@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/fleet_check.h"
 #include "split_mapf/generate/generator.h"
 #include "split_mapf/pipeline/roll.h"
+#include "support/ascii_grid.h"
 
 namespace split_mapf {
 namespace {
@@ -117,6 +119,23 @@ TEST(LateRobots, ARunWithThemIsValidAndTheSameAtAnyNumberOfThreads) {
   EXPECT_EQ(none.delayed, 0);
   EXPECT_LT(one.goals_reached, none.goals_reached);
   EXPECT_GT(one.throughput, 0.6 * none.throughput) << "a tenth of the time is lost, and some more";
+}
+
+TEST(LateRobots, AreLedByNoEscortForWaitingUntilTheyCanMove) {
+  const auto grid = test::gridFromAscii(std::vector<std::string>(16, std::string(16, '.')));
+  RollTask task;
+  task.random = true;
+  task.starts = drawStarts(*grid, 12, 1);
+  RollOptions options;
+  options.steps = 300;
+  options.warmup = 30;
+  options.step_expansions = 1000;
+  options.rolling.window = 5;
+  options.delays.probability = 0.003;
+  options.delays.min_delay = options.delays.max_delay = 5 * options.rolling.window;
+  const RollReport report = roll(grid, task, options);
+  EXPECT_GT(report.delayed, 0.02);
+  EXPECT_EQ(report.escorts, 0U);
 }
 
 TEST(LateRobots, RefuseAModelThatIsOutOfRange) { EXPECT_THROW(rollLate(1, 1.5), OptionError); }

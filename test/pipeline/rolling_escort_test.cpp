@@ -68,6 +68,25 @@ TEST(Rolling, CountsDistancesAnewWhenWallsChange) {
   EXPECT_EQ(progress.stuckFor(1, 4), 0U);
 }
 
+TEST(Rolling, ExcusesStepsInWhichARobotStandsAndNoneInWhichItMoves) {
+  const GridPtr grid = gridFromAscii({"....."});
+  const rolling::MoveGraph graph(*grid);
+  rolling::SlopeCache slopes(graph, 1 << 20);
+  rolling::Progress progress;
+  const Vertex goal = grid->vertexAt({4, 0});
+  const auto excuse = [&](int x, std::uint64_t now) {
+    progress.note(graph, 1, grid->vertexAt({x, 0}), goal, *slopes.find(goal), now);
+    return progress.excuse(1);
+  };
+  EXPECT_FALSE(excuse(2, 10)) << "nothing is known of the step before";
+  EXPECT_TRUE(excuse(2, 13));
+  EXPECT_TRUE(excuse(2, 13)) << "asked again at once";
+  EXPECT_EQ(progress.stuckFor(1, 13), 0U);
+  EXPECT_FALSE(excuse(1, 14));
+  EXPECT_FALSE(excuse(2, 15));
+  EXPECT_EQ(progress.stuckFor(1, 15), 2U);
+}
+
 /// Binds robots to as much of what they were told as they may stop behind.
 void bindRobots(const GridPtr& grid, std::size_t steps, RollingQuestion& question) {
   for (; steps > 0; --steps) {

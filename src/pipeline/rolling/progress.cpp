@@ -18,6 +18,9 @@ std::uint32_t Progress::note(const MoveGraph& graph, std::uint32_t id, Vertex at
   } else if (slot != kWait) {
     robot.left = slope.distance(graph, at, 0xffffffffU);
   }
+  robot.stands = slot == kWait;
+  robot.passed = now - robot.noted;
+  robot.noted = now;
   robot.at = at;
   robot.goal = goal;
   if (!is_new && is_measured && robot.left >= robot.best) return robot.left;
@@ -32,6 +35,12 @@ std::uint32_t Progress::note(const MoveGraph& graph, std::uint32_t id, Vertex at
 
 void Progress::measureAnew() {
   for (auto& robot : robots_) robot.second.at = kNoVertex;
+}
+
+bool Progress::excuse(std::uint32_t id) {
+  Robot& robot = robots_.at(id);
+  if (robot.stands) robot.since += robot.passed;
+  return robot.stands;
 }
 
 std::uint32_t Progress::stuckFor(std::uint32_t id, std::uint64_t now) const {

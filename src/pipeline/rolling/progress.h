@@ -18,7 +18,10 @@ class Progress {
   void measureAnew();
   /// Of a robot without a goal that it could reach.
   void forget(std::uint32_t id) { robots_.erase(id); }
-  /// Steps for which the robot has gained nothing.
+  /// Leaves the steps since the robot was noted before out of those without a gain, where it stands
+  /// as it did then: it was bound to. Once after each note(). @return whether it stands so.
+  bool excuse(std::uint32_t id);
+  /// Steps for which the robot has gained nothing, but those that were excused.
   std::uint32_t stuckFor(std::uint32_t id, std::uint64_t now) const;
   /// The least distance to its goal so far [steps]. @pre the robot was noted.
   std::uint32_t best(std::uint32_t id) const { return robots_.at(id).best; }
@@ -30,6 +33,9 @@ class Progress {
     std::uint32_t left = 0;  // steps to the goal from `at`
     std::uint32_t best = 0;
     std::uint64_t since = 0;
+    std::uint64_t noted = 0;   // last, at step
+    std::uint64_t passed = 0;  // steps from the note before to the last
+    bool stands = false;       // after the same goal where it was at the note before
   };
   std::unordered_map<std::uint32_t, Robot> robots_;
 };
