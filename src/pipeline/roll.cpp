@@ -85,9 +85,10 @@ class RollRun {
     planner_.begin(question_);
     const double valid_ms = 1e3 * (cpuSec() - begin);
     if (options_.step_sec > 0) {
-      while (cpuSec() - begin < options_.step_sec * threads && !deadline.expired()) {
+      // Once always: without the first call nobody who is stuck is led on.
+      do {
         if (planner_.improve(kBudget) == 0) break;
-      }
+      } while (cpuSec() - begin < options_.step_sec * threads && !deadline.expired());
     } else {
       planner_.improve(options_.step_expansions, deadline);
     }

@@ -31,6 +31,23 @@ TEST(Rolling, LeadsRobotsOnThatOnlyAJointPlanCanPart) {
   EXPECT_EQ(report.reached[1].size(), 2U);
 }
 
+TEST(Rolling, ImprovesOnceWhereAValidWindowTakesTheWholeStep) {
+  const GridPtr grid = gridFromAscii({"..................", "#.################"});
+  RollTask task;
+  task.starts = {grid->vertexAt({0, 0}), grid->vertexAt({17, 0})};
+  task.goals = {{task.starts[1], task.starts[0]}, {task.starts[0], task.starts[1]}};
+  RollOptions options;
+  options.steps = 400;
+  options.warmup = 0;
+  options.rolling.window = 5;
+  options.step_sec = 1e-9;
+  const RollReport report = roll(grid, task, options);
+  EXPECT_GT(report.expansions, 0U);
+  EXPECT_GT(report.escorts, 0U);
+  EXPECT_EQ(report.reached[0].size(), 2U);
+  EXPECT_EQ(report.reached[1].size(), 2U);
+}
+
 TEST(Rolling, StarvesNobodyInLanesWithRooms) {
   const GridPtr grid = gridFromAscii({"...........#...........", "...........#...........",
                                       "...##########.##...####", "#.############.###.####",

@@ -27,7 +27,7 @@ struct RollOptions {
   std::uint32_t warmup = 80;      ///< [steps] left out of what is measured, less than `steps`
   std::uint32_t known_goals = 2;  ///< of each robot that the planner is told, at least 1
   /// Effort a step: expansions, or with `step_sec` above 0 as many budgets as fit into so much CPU
-  /// time [s] of each thread, from the moment the goals are known.
+  /// time [s] of each thread, from the moment the goals are known, but at least one.
   std::uint64_t step_expansions = 100000;
   double step_sec = 0;
   /// Robots that stand in a step that would have moved them, and with them whoever would come where
