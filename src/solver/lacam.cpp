@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "search/crowd.h"
 #include "search/replan_singly.h"
 #include "solver/lacam/lacam_search.h"
 #include "solver/lacam/settings.h"
@@ -133,9 +134,10 @@ SolverInfo LacamSolver::info() {
   info.lean_values = {{"polish", "0"}};
   info.options = {
       {"check", flag(defaults.check), "ask first whether the rules of exchange allow a plan"},
-      {"guidance", "4",
-       "rounds in which robots choose scattered paths to follow; 0: no guidance; not given: 2 in "
-       "teams of 4096 robots or more"},
+      {"guidance", std::to_string(LacamSettings::kRounds),
+       "rounds in which robots choose scattered paths to follow; 0: no guidance; not given: " +
+           std::to_string(LacamSettings::kRoundsOfCrowd) + " in teams of " +
+           std::to_string(kCrowd) + " robots or more"},
       {"margin", std::to_string(defaults.margin),
        "steps that a scattered path may be longer than the shortest"},
       {"swap", flag(defaults.swap), "robots that block each other in corridors change places"},

@@ -9,9 +9,6 @@
 namespace split_mapf {
 namespace {
 
-// Rounds of guidance. In crowds more than two take long and hardly lessen costs.
-constexpr std::uint64_t kRounds = 4;
-constexpr std::uint64_t kRoundsOfCrowd = 2;
 // Robots of a crowd that choose their paths side by side.
 constexpr std::uint32_t kBatchOfCrowd = 8;
 constexpr std::size_t kMebibyte = std::size_t{1} << 20;
@@ -31,7 +28,8 @@ LacamSearch::LacamSearch(const Instance& instance, const LacamSettings& settings
       ranks_(makeOrder(instance, "longest_first", engine_)) {}
 
 LacamSearch::Outcome LacamSearch::run() {
-  const std::uint64_t rounds = settings_.guidance.value_or(isCrowd() ? kRoundsOfCrowd : kRounds);
+  const std::uint64_t rounds = settings_.guidance.value_or(isCrowd() ? LacamSettings::kRoundsOfCrowd
+                                                                     : LacamSettings::kRounds);
   if (rounds > 0) makeGuidance(rounds);
   // Not before: the guidance holds the robots' tables one by one.
   distances_ = std::make_unique<RobotDistances>(instance_);

@@ -9,6 +9,11 @@ namespace split_mapf {
 
 /// What a run of LaCAM is told, and which of its techniques to use.
 struct LacamSettings {
+  /// Rounds of guidance that nobody asked for. In crowds more than two take long and hardly lessen
+  /// costs.
+  static constexpr std::uint64_t kRounds = 4;
+  static constexpr std::uint64_t kRoundsOfCrowd = 2;
+
   Objective objective = Objective::kMakespan;
   std::uint64_t seed = 0;
   std::uint64_t expansion_limit = 0;  ///< as in SolverOptions
