@@ -1,7 +1,6 @@
 #include "split_mapf/pipeline/roll.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <ctime>
 #include <numeric>
 #include <optional>
@@ -11,6 +10,7 @@
 
 #include "pipeline/goal_source.h"
 #include "pipeline/late_robots.h"
+#include "pipeline/rolling/move_graph.h"
 #include "split_mapf/core/distance_table.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/fleet_check.h"
@@ -36,14 +36,6 @@ RollOptions checked(const RollOptions& options) {
   }
   if (options.known_goals < 1) throw OptionError("0 known goals; at least 1 is expected");
   return options;
-}
-
-/// Whether one move goes on as another did. On a planning graph moves have any direction; less than
-/// half of a right angle off is straight.
-bool goesOn(Cell before, Cell move) {
-  const std::int64_t dot = std::int64_t{before.x} * move.x + std::int64_t{before.y} * move.y;
-  const std::int64_t cross = std::int64_t{before.x} * move.y - std::int64_t{before.y} * move.x;
-  return dot > 0 && dot > std::abs(cross);
 }
 
 /// One call of roll().
@@ -231,15 +223,15 @@ class RollRun {
     std::uint64_t moves = 0;
     std::uint64_t turns = 0;
     for (const Path& path : report_.paths) {
-      Cell last{0, 0};
+      Vertex from = kNoVertex;  // where the last move began
       for (std::size_t t = 1; t < path.size(); ++t) {
         if (path[t] == path[t - 1]) continue;
-        const Cell a = grid_->cellOf(path[t - 1]);
-        const Cell b = grid_->cellOf(path[t]);
-        const Cell move{b.x - a.x, b.y - a.y};
         ++moves;
-        turns += last != Cell{0, 0} && !goesOn(last, move) ? 1 : 0;
-        last = move;
+        const bool is_turn = from != kNoVertex &&
+                             !rolling::isStraight(grid_->cellOf(from), grid_->cellOf(path[t - 1]),
+                                                  grid_->cellOf(path[t]));
+        turns += is_turn ? 1 : 0;
+        from = path[t - 1];
       }
     }
     if (moves > 0) report_.turns = static_cast<double>(turns) / static_cast<double>(moves);

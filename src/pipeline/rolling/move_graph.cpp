@@ -1,22 +1,20 @@
 #include "pipeline/rolling/move_graph.h"
 
+#include <cstdlib>
+
 #include "split_mapf/core/error.h"
 
 namespace split_mapf::rolling {
-namespace {
 
 bool isStraight(Cell a, Cell b, Cell c) {
-  // On a planning graph edges have any direction; less than half of a right angle off is straight.
-  const std::int64_t ux = b.x - a.x;
-  const std::int64_t uy = b.y - a.y;
-  const std::int64_t wx = c.x - b.x;
-  const std::int64_t wy = c.y - b.y;
+  const std::int64_t ux = std::int64_t{b.x} - a.x;
+  const std::int64_t uy = std::int64_t{b.y} - a.y;
+  const std::int64_t wx = std::int64_t{c.x} - b.x;
+  const std::int64_t wy = std::int64_t{c.y} - b.y;
   const std::int64_t dot = ux * wx + uy * wy;
   const std::int64_t cross = ux * wy - uy * wx;
-  return dot > 0 && dot > (cross < 0 ? -cross : cross);
+  return dot > 0 && dot > std::abs(cross);
 }
-
-}  // namespace
 
 MoveGraph::MoveGraph(const Grid& grid) {
   const Graph& graph = grid.graph();

@@ -16,6 +16,10 @@ constexpr std::uint32_t kSlots = 4;
 /// In place of a robot's number: nobody.
 constexpr std::uint32_t kNoRobot = 0xffffffffU;
 
+/// Whether the move from b to c goes on as the one from a to b did. On a planning graph moves have
+/// any direction: less than half of a right angle off is straight.
+bool isStraight(Cell a, Cell b, Cell c);
+
 /// A graph of at most four edges a vertex, laid out for searches that look at all ways out of a
 /// vertex at once. Immutable, hence safe to share. Cost: 28 bytes a vertex.
 class MoveGraph {
