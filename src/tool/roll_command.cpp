@@ -43,7 +43,7 @@ void declareOptions(CommandLine& line) {
              "first steps that are not counted (" + std::to_string(defaults.warmup) + ")");
   line.offer("window", "STEPS",
              "planned ahead, 1 to " + std::to_string(RollingOptions::kMostWindow) +
-                 " (13 to 20, by how full the map is)");
+                 " (13 to 26, by how full the map is)");
   line.offer("step-expansions", "N",
              "effort a step in expanded states: the same run at any number of threads (" +
                  std::to_string(defaults.step_expansions) + ")");

@@ -65,7 +65,9 @@ struct RollingAnswer {
 /// the steps that they still have to go at the window's end, over this goal and the next ones.
 /// Groups of 2 to 8 of them, a delayed one and those in its way, are planned anew together among
 /// the others, by searches over (vertex, step, goals reached). A robot that comes no nearer to its
-/// goal for three windows is led on by a complete solver with whoever is around it.
+/// goal for three windows, or ten where robots take more than two fifths of the vertices, is led on
+/// by a complete solver with whoever is around it; steps in which it stands because it is bound to
+/// do not count.
 ///
 /// At any thread count the same questions and numbers of expansions give the same answers; a clock
 /// chooses only how often improve() is called. Every answer has passed a check of its own.
@@ -74,7 +76,8 @@ struct RollingAnswer {
 /// need now. Not thread-safe. Source: windows after Li et al. (RHCR, AAAI 2021); the rest is ours.
 /// Cost: begin() O(robots * window), and a breadth-first search for each goal that is new, by all
 /// threads; the first improve() the same for goals behind it, and where a robot is stuck at most
-/// two searches of 400,000 expansions; memory about 250 bytes a vertex, and 109 a thread.
+/// two searches of 400,000 expansions and one more window, in a crowd two; memory about 250 bytes a
+/// vertex, and 109 a thread.
 class Rolling {
  public:
   /// @throws OptionError for a window or a number of threads out of range; InputError where a
@@ -89,7 +92,9 @@ class Rolling {
   /// path, or in conflict with another one; two robots with one id; a goal off the graph.
   void begin(const RollingQuestion& question, std::uint32_t steps = 1);
   /// Searches on for so many expansions, or until the deadline. The first call behind begin() looks
-  /// for escorts, too. @return expansions done; 0 when nothing is left to improve.
+  /// for escorts, too, and may make another window for them, or from nothing that was known in a
+  /// crowd. None of that is cut by `expansions` or the deadline. @return expansions done; 0 when
+  /// nothing is left to improve.
   /// @pre begin() was called.
   std::uint64_t improve(std::uint64_t expansions, const Deadline& deadline = {});
   /// @throws std::logic_error when what was planned is not valid, which would be a bug.
