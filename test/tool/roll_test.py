@@ -159,6 +159,15 @@ class RollTest(CommandTest):
         self.require_apart(result)
         self.assertEqual(self.roll_with_size(*options, "--threads", 2)["paths"], result["paths"])
 
+    def test_robots_that_have_size_and_are_late_keep_apart(self):
+        self.write_two_rooms()
+        result = self.roll_with_size("--agents", 8, "--steps", 60, "--warmup", 0,
+                                     "--step-expansions", 2000, "--delay-probability", 0.05,
+                                     "--min-delay", 2, "--max-delay", 6)
+        self.assertGreater(result["delayed"], 0.05)
+        self.assertGreater(result["goals_reached"], 5)
+        self.require_apart(result)
+
     def test_cells_of_the_map_stand_for_the_nearest_vertices(self):
         self.write_two_rooms()
         self.write("t.yaml", "robots:\n- {start: [12, 14], goals: [[128, 70], [20, 20]]}\n"
