@@ -22,6 +22,9 @@ constexpr std::uint64_t kSinglyOneIn = 3;
 // states of long plans cost more, takes as long as so many states; to take rings out so many more.
 constexpr std::uint64_t kStatesAVisit = 3;
 constexpr std::uint64_t kStatesAVisitOfRings = 1;
+// But no more than one in so many of the budget: of long plans something must be left to search.
+constexpr std::uint64_t kVisitsOneIn = 2;
+constexpr std::uint64_t kVisitsOfRingsOneIn = 4;
 // A map is one of lanes when of its vertices more than one in so many have no third way.
 constexpr std::uint32_t kLanesOneIn = 3;
 constexpr std::uint32_t kPasses = 8;
@@ -55,7 +58,7 @@ class RestRun {
     answer_.rings = ringsAhead();
     budget_ = expansions;
     const Precedence order = restBehind(graph_, cut_);
-    spent_ += kStatesAVisit * order.size();
+    spent_ += std::min(kStatesAVisit * order.size(), budget_ / kVisitsOneIn);
     const bool has_rings = breaksRings() && !findRings(order).empty();
     Plan rest = soonest(order, has_rings);
     const Instance instance = instanceOf(rest);
@@ -92,7 +95,7 @@ class RestRun {
     rest = breakRings(instance, std::move(rest), Departures(departures_), deadline_,
                       &answer_.expansions, budget_ / 2);
     const Precedence order(rest, whole_.graph().size());
-    spent_ += kStatesAVisitOfRings * order.size();
+    spent_ += std::min(kStatesAVisitOfRings * order.size(), budget_ / kVisitsOfRingsOneIn);
     return soonest(order, !findRings(order).empty());
   }
 

@@ -149,6 +149,27 @@ struct RotatingCrowd {
   }
 };
 
+/// What is done with each of its visits used to cost all of the budget.
+TEST(RestReplanner, ImprovesALongRestToo) {
+  const auto grid = std::make_shared<const Grid>(8, 8, std::vector<bool>(64, true));
+  Plan plan;
+  for (const Vertex from : {0U, 16U}) {
+    Path path;
+    for (std::uint32_t lap = 0; lap < 500; ++lap) path.insert(path.end(), {from, from + 1});
+    plan.paths.push_back(std::move(path));
+  }
+  const Instance instance = test::instanceOf(grid, plan);
+  const ExecutionGraph graph(Precedence(plan, grid->size()), 0);
+  ReplanQuestion question;
+  question.graph = &graph;
+  question.commit = 10;
+  // Three states for each of 2,000 visits are more.
+  const ReplanAnswer answer = RestReplanner(instance, {10, 0, 0}, {4000, 0}).replan(question);
+  EXPECT_GT(answer.expansions, 0U);
+  ASSERT_TRUE(answer.execution);
+  EXPECT_LT(answer.cost_after, answer.cost_before / 10);
+}
+
 TEST(RestReplanner, SpendsNoMoreThanItsBudgetOnRingsEither) {
   const RotatingCrowd crowd(1);
   ASSERT_GT(findRings(Precedence(crowd.plan, crowd.grid->size())).size(), 4U);
