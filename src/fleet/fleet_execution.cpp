@@ -103,7 +103,7 @@ std::string toString(Absence absence) {
     case Absence::kBlocked:
       return "is blocked";
     case Absence::kAstray:
-      return "left the cells of its route";
+      return "left its way";
     case Absence::kPaused:
       break;
   }

@@ -36,7 +36,11 @@ ReportFate FleetExecution::report(std::uint32_t robot, const RobotReport& report
   }
   ReportFate fate = takeProgress(robot, report, now);
   const ReportFate place = judgePlace(robot, report);
-  if (place == ReportFate::kAstray) fate = place;
+  // Who was seen off its way is back when it is seen on it.
+  const bool is_blind = record.strayed_to ? !report.point : !report.place && !report.point;
+  const bool stays_astray =
+      record.absence == Absence::kAstray && record.was_seen_astray && is_blind;
+  if (place == ReportFate::kAstray || stays_astray) fate = ReportFate::kAstray;
   takeStatus(robot, report.status, now);
   const bool drives = report.status == DriveStatus::kOk || report.status == DriveStatus::kPaused;
   if (fate == ReportFate::kTaken && drives && isReadmitted(record.absence)) comeBack(robot);
@@ -106,6 +110,7 @@ ReportFate FleetExecution::judgePlace(std::uint32_t robot, const RobotReport& re
   Robot& record = robots_[robot];
   const bool known = record.absence == Absence::kAstray && record.place == place;
   record.place = place;
+  record.was_seen_astray = true;
   if (!known) {
     record.absence = Absence::kNone;
     dropOut(robot, Absence::kAstray);
@@ -136,6 +141,7 @@ ReportFate FleetExecution::judgePoint(std::uint32_t robot, PlanePoint point) {
                          options_.distance_m / 2;
   if (known) return ReportFate::kAstray;
   record.strayed_to = point;
+  record.was_seen_astray = true;
   // Until it has moved on by half of the distance, too.
   record.near = options_.moves->nearTo(point, point, 1.5 * options_.distance_m);
   record.absence = Absence::kNone;
@@ -167,6 +173,7 @@ void FleetExecution::comeBack(std::uint32_t robot) {
   Robot& record = robots_[robot];
   record.absence = record.paused ? Absence::kPaused : Absence::kNone;
   record.place = kNoVertex;
+  record.was_seen_astray = false;
   record.strayed_to.reset();
   record.near.clear();
   if (record.void_promise && !options_.plans_anew) renewPromise(robot);

@@ -64,7 +64,9 @@ TEST(FleetExecution, TakesARobotThatStraysForAnObstacleWhereItIs) {
   small.answer(1);
   for (const RouteStep& step : small.fleet->route(1, 100)) EXPECT_NE(step.vertex, 3U);
   EXPECT_EQ(small.fleet->status(1)[1].fault, GoalFault::kNone);
-  // It comes back by itself.
+  // It comes back by itself, but not by a report that does not tell where it is.
+  EXPECT_EQ(small.fleet->report(0, {0, 0, DriveStatus::kOk, {}}, 2), ReportFate::kAstray);
+  EXPECT_EQ(small.fleet->status(2)[0].absence, Absence::kAstray);
   EXPECT_EQ(small.fleet->report(0, {0, 0, DriveStatus::kOk, Cell{0, 2}}, 2), ReportFate::kTaken);
   EXPECT_EQ(small.fleet->status(2)[0].absence, Absence::kNone);
 }
@@ -123,6 +125,9 @@ TEST(FleetExecution, TakesARobotThatLeavesItsWayOnAPlanningGraphForAnObstacleWhe
   EXPECT_EQ(fleet.strayedTo(0)->x, strayed.x);
   EXPECT_EQ(say({strayed.x, strayed.y + 2 * off}, 1.2), ReportFate::kAstray);
   EXPECT_GT(fleet.strayedTo(0)->y, strayed.y) << "it strays on";
+  RobotReport blind;
+  EXPECT_EQ(fleet.report(0, blind, 1.3), ReportFate::kAstray);
+  EXPECT_TRUE(fleet.strayedTo(0)) << "nobody saw it on its way";
   EXPECT_EQ(say(start, 2), ReportFate::kTaken);
   EXPECT_EQ(fleet.status(2)[0].absence, Absence::kNone);
   EXPECT_FALSE(fleet.strayedTo(0));

@@ -277,6 +277,26 @@ class DiscFleet(FleetCase):
         self.assertEqual(result.outcome, PlanOutcome.UNKNOWN_ROBOT, result.message)
         self.assertIn("not on a vertex of the planning graph", result.message)
 
+    def test_a_robot_joins_exactly_on_a_vertex_and_drops_out_when_it_leaves(self):
+        path = copy.deepcopy(self.plan.paths[0])
+        path.start.position.x = (path.cells[0] % ROOMS[0] + 0.5) * CELL
+        path.start.position.y = (path.cells[0] // ROOMS[0] + 0.5) * CELL
+        aside = [0.4 * CELL]
+        fleet = self.start_rolling()
+        self.play(path, aside)
+        self.mover = connect()
+        # Until its reports come to the node it may be about to.
+        self.assertTrue(wait_until(
+            lambda: "not on a vertex" in self.result_of(task(path.robot_id, 1.0, 1.0)).message,
+            PATIENCE), fleet.output())
+        aside[0] = 0.0
+        self.assertTrue(wait_until(lambda: self.count(RobotState.IDLE) == 1, PATIENCE),
+                        fleet.output())
+        aside[0] = 2 * RADIUS
+        self.assertTrue(wait_until(lambda: self.count(RobotState.ABSENT) == 1, PATIENCE),
+                        fleet.output())
+        self.assertIn("left its way", self.latest()[0].message)
+
     def test_refuses_a_plan_of_another_graph(self):
         self.start_fleet(5.0, "_cell_size:=1.3")
         goal = self.send()

@@ -205,7 +205,8 @@ class FleetExecution {
     bool void_promise = false;     ///< it stands, and waits for other visits
     bool tried_elsewhere = false;  ///< since it is blocked
     Vertex came_from = kNoVertex;
-    // Where it strayed to, and on a planning graph what is near to it.
+    // Where it strayed to, whether a pose told so, and on a planning graph what is near to it.
+    bool was_seen_astray = false;
     Vertex place = kNoVertex;
     std::optional<PlanePoint> strayed_to;
     std::vector<Vertex> near;

@@ -11,6 +11,7 @@
 #include "ros/convert/fleet_messages.h"
 #include "ros/convert/text_limits.h"
 #include "ros/fleet/fleet_server.h"
+#include "ros/fleet/near_cells.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
 #include "split_mapf/roadmap/map_frame.h"
@@ -100,6 +101,25 @@ void FleetServer::markNear(std::vector<bool>& cells, Cell cell, double distance_
   for (const Vertex v : near->second) cells[v] = true;
 }
 
+/// On a planning graph: to which vertices no robot may be sent as cells are blocked by a service.
+/// It is looked up again when these, or the graph, are others.
+const std::vector<bool>& FleetServer::nearBlocked(double reach_m) {
+  const auto& moves = fleet_->graph().closeMoves();
+  NearBlocked& near = near_blocked_;
+  const bool is_known = near.moves == moves && near.reach_m == reach_m &&
+                        near.cells.size() == blocked_.size() &&
+                        std::equal(blocked_.begin(), blocked_.end(), near.cells.begin());
+  if (is_known) return near.vertices;
+  near.moves = moves;
+  near.reach_m = reach_m;
+  near.cells.assign(blocked_.begin(), blocked_.end());
+  std::vector<Cell> cells;
+  for (const std::uint32_t cell : blocked_) cells.push_back(grid_->geometry.cellOf(cell));
+  near.vertices =
+      verticesNear(*moves, grid_->grid->size(), cells, grid_->geometry.info().resolution, reach_m);
+  return near.vertices;
+}
+
 /// The cell in which a pose lies; nothing where there is none, or no map yet.
 std::optional<Cell> FleetServer::placeOf(const geometry_msgs::PoseStamped& pose) const {
   return cellAt(poseOnMap(pose));
@@ -113,7 +133,8 @@ std::optional<Cell> FleetServer::cellAt(const std::optional<geometry_msgs::Point
 /// On the raster of a planning graph; nothing for robots on a grid.
 std::optional<PlanePoint> FleetServer::rasterPoint(
     const std::optional<geometry_msgs::Point>& point) const {
-  if (!point || !discs_) return std::nullopt;
+  const bool is_on_graph = discs_ || (ground_ && ground_->discs);
+  if (!point || !is_on_graph) return std::nullopt;
   const MapPoint at = toRaster(frameOf(grid_->geometry), {point->x, point->y});
   return PlanePoint{at.x, at.y};
 }
@@ -141,8 +162,12 @@ void FleetServer::closeCells() {
   const double distance_m = discs_                ? discs_->distance()
                             : rolls_on != nullptr ? rolls_on->distance()
                                                   : 0;
-  for (const std::uint32_t cell : blocked_) {
-    markNear(blocked, grid_->geometry.cellOf(cell), reach_m);
+  if (fleet_->graph().closeMoves()) {
+    blocked = nearBlocked(reach_m);
+  } else {
+    for (const std::uint32_t cell : blocked_) {
+      markNear(blocked, grid_->geometry.cellOf(cell), reach_m);
+    }
   }
   for (const auto& [id, known] : known_) {
     if (!known.place || index_.count(id) > 0) continue;

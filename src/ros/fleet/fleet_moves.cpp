@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <map>
 #include <utility>
 
@@ -68,6 +69,9 @@ void FleetServer::takeMove(MoveAction::Goal goal) {
     refuseGoal<MoveRobotsResult>(goal, error);
   } catch (const InputError& error) {
     refuseGoal<MoveRobotsResult>(goal, GoalError(Outcome::kInvalidOption, error.what()));
+  } catch (const std::exception& error) {
+    refuseGoal<MoveRobotsResult>(
+        goal, GoalError(Outcome::kInternalError, std::string("internal error: ") + error.what()));
   }
 }
 
@@ -99,13 +103,15 @@ void FleetServer::roll(double now) {
   const auto map = maps_.choose(std::make_shared<const nav_msgs::OccupancyGrid>());
   RollingGround ground = makeRollingGround(*map, options_.server.goal);
   const FleetOptions options = rollingOptions(ground);
+  auto fleet = std::make_unique<FleetExecution>(ground.grid.grid, std::vector<std::string>(),
+                                                Plan(), options, now);
   if (fleet_) keepPlaces();
   moves_.reset();
   tasks_.reset();
   changeGrid(ground.grid);
   ground_ = std::move(ground);
-  fleet_ = std::make_unique<FleetExecution>(grid_->grid, std::vector<std::string>(), Plan(),
-                                            options, now);
+  rolls_on_ = map;
+  fleet_ = std::move(fleet);
   const ros::WallTime stamp = ros::WallTime::now();
   plan_id_ = std::to_string(stamp.sec) + "." + std::to_string(stamp.nsec / 1000);
   began_ = now;
@@ -127,6 +133,7 @@ FleetOptions FleetServer::rollingOptions(const RollingGround& ground) const {
   options.rolling = true;
   options.step_sec = stepDurationOf(options_.server.goal, ground.longest_step_m);
   options.moves = ground.moves;
+  options.distance_m = ground.distance();
   if (!ground.discs && options_.robot_radius_m > 0) {
     options.release = releaseFraction(options_.robot_radius_m, ground.longest_step_m);
   }
@@ -135,7 +142,6 @@ FleetOptions FleetServer::rollingOptions(const RollingGround& ground) const {
 }
 
 void FleetServer::startTasks() {
-  rolls_on_ = maps_.choose(std::make_shared<const nav_msgs::OccupancyGrid>());
   RollingOptions options;
   options.window = options_.window;
   options.seed = options_.server.goal.plan.seed;
@@ -168,9 +174,13 @@ std::string FleetServer::tryToJoin(const RobotTask& task, const Known& known) {
   const std::string& id = task.robot_id;
   if (fleet_->isJoining(id) || fleet_->find(id)) return "";
   std::optional<Cell> place = known.place;
-  if (!place && isFinite(task.start)) place = placeOf(task.start);
+  std::optional<geometry_msgs::Point> point = poseOnMap(known.pose);
+  if (!place && isFinite(task.start)) {
+    point = poseOnMap(task.start);
+    place = cellAt(point);
+  }
   if (!place) return "its place is not known, as its progress has no pose";
-  const std::optional<Vertex> at = ground_->vertexUnder(*place);
+  const std::optional<Vertex> at = ground_->vertexUnder(*place, rasterPoint(point));
   if (!at) return "it is in cell " + grid_->geometry.describeWithMetres(*place) + whyNot(*place);
   const std::string name = rosNameOf(id);
   for (std::uint32_t robot = 0; robot < fleet_->robots(); ++robot) {

@@ -141,6 +141,7 @@ void FleetServer::takeUpFleet(const FleetSnapshot& kept, double now) {
     if (kept.rolling) {
       ground = makeRollingGround(*map, goal);
       options.moves = ground->moves;
+      options.distance_m = ground->distance();
     }
     const PlanningGrid grid =
         ground ? ground->grid : makePlanningGrid(*map, goal.occupancy, goal.ignore_specks);
@@ -149,6 +150,7 @@ void FleetServer::takeUpFleet(const FleetSnapshot& kept, double now) {
     if (options.moves) of_vertices.blocked.clear();
     fleet_ = std::make_unique<FleetExecution>(grid.grid, of_vertices, options, now);
     ground_ = std::move(ground);
+    if (ground_) rolls_on_ = map;
     changeGrid(grid);
     for (const Cell cell : kept.blocked) blocked_.insert(grid_->geometry.indexOf(cell));
     return;

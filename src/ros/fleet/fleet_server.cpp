@@ -20,6 +20,7 @@
 #include "split_mapf/core/release_fraction.h"
 #include "split_mapf/core/wording.h"
 #include "split_mapf/io/execution_file.h"
+#include "split_mapf/roadmap/map_frame.h"
 #include "split_mapf/ros/plan_messages.h"
 
 namespace split_mapf {
@@ -211,6 +212,13 @@ std::vector<RobotFault> FleetServer::notReady(const Waiting& waiting, double now
       faults.push_back(makeFault(path.robot_id, Outcome::kUnknownRobot, who + " does not report"));
       continue;
     }
+    if (waiting.discs) {
+      const std::string fault = whyOffStart(*waiting.discs, path, known->second);
+      if (!fault.empty()) {
+        faults.push_back(makeFault(path.robot_id, Outcome::kInvalidPose, who + " is " + fault));
+        continue;
+      }
+    }
     const std::optional<Cell>& place = known->second.place;
     const Cell start =
         waiting.discs ? geometry.cellAt(path.start.position) : geometry.cellOf(path.cells.front());
@@ -224,6 +232,19 @@ std::vector<RobotFault> FleetServer::notReady(const Waiting& waiting, double now
                                    geometry.describeWithMetres(start)));
   }
   return faults;
+}
+
+/// By its pose: farther from its start it would have left its way with its first report.
+std::string FleetServer::whyOffStart(const DiscParts& discs, const RobotPath& path,
+                                     const Known& known) const {
+  const std::optional<geometry_msgs::Point> at = poseOnMap(known.pose);
+  if (!at) return "";
+  const geometry_msgs::Point& start = path.start.position;
+  const double off_m = std::hypot(at->x - start.x, at->y - start.y);
+  const double most_m = discs.distance() / 2;
+  if (off_m <= most_m) return "";
+  return inMetres(off_m) + " from where its path begins, at (" + numeral(start.x) + ", " +
+         numeral(start.y) + ") m; robots of this plan may be off by " + inMetres(most_m);
 }
 
 /// Cells of a map that lies elsewhere are other places.

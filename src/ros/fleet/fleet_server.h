@@ -83,6 +83,13 @@ class FleetServer {
   void shutdown();
 
  private:
+  /// Vertices near to blocked cells, and what they were found for.
+  struct NearBlocked {
+    std::shared_ptr<const CloseMoves> moves;
+    double reach_m = 0;
+    std::vector<std::uint32_t> cells;
+    std::vector<bool> vertices;
+  };
   using Server = actionlib::ActionServer<ExecutePlanAction>;
   using Goal = Server::GoalHandle;
   using Lock = std::unique_lock<std::mutex>;
@@ -114,6 +121,7 @@ class FleetServer {
   void beginWhenReady(double now);
   void changeGrid(const PlanningGrid& grid);
   std::vector<RobotFault> notReady(const Waiting& waiting, double now) const;
+  std::string whyOffStart(const DiscParts& discs, const RobotPath& path, const Known& known) const;
   Waiting checkDiscs(const Goal& goal) const;
   void requireNames(const MultiRobotPlan& plan) const;
   void begin(const Waiting& waiting, double now);
@@ -157,6 +165,7 @@ class FleetServer {
   void countRefused(const RobotProgress& message, const std::string& why);
   void closeCells();
   void markNear(std::vector<bool>& cells, Cell cell, double distance_m);
+  const std::vector<bool>& nearBlocked(double reach_m);
   void reindex();
 
   // Services.
@@ -205,6 +214,7 @@ class FleetServer {
   /// What is near to cells, by column, row and distance, as far as it was asked for on a graph.
   std::map<std::tuple<std::int32_t, std::int32_t, double>, std::vector<Vertex>> near_;
   std::shared_ptr<const CloseMoves> near_of_;
+  NearBlocked near_blocked_;
   std::vector<RobotFault> faults_;
   bool all_paused_ = false;
   std::set<std::string> paused_;

@@ -1,6 +1,7 @@
 // The services of the fleet server.
 
 #include <cmath>
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -79,9 +80,7 @@ std::string FleetServer::tryToAdd(const RobotTask& task) {
   if (!fleet_ && !waiting_) {
     try {
       roll(now());
-    } catch (const GoalError& error) {
-      return std::string("there is no fleet to join: ") + error.what();
-    } catch (const InputError& error) {
+    } catch (const std::exception& error) {
       return std::string("there is no fleet to join: ") + error.what();
     }
   }

@@ -12,6 +12,8 @@ namespace {
 
 // From a place in a cell to the cell's centre at most, rounded up [cells].
 constexpr double kHalfDiagonal = 0.7072;
+// So far off a vertex poses may be by rounding alone [cells].
+constexpr double kRounding = 0.1;
 
 std::optional<Vertex> onGrid(const Grid& grid, Cell cell) {
   const Vertex vertex = grid.vertexAt(cell);
@@ -25,10 +27,13 @@ MapPoint centreOf(const DiscGround& discs, Cell cell) {
 
 }  // namespace
 
-std::optional<Vertex> RollingGround::vertexUnder(Cell cell) const {
+std::optional<Vertex> RollingGround::vertexUnder(Cell cell,
+                                                 const std::optional<PlanePoint>& point) const {
   if (!discs) return onGrid(*grid.grid, cell);
-  const double off_m =
-      discs->roadmap().clearance_m / 2 - kHalfDiagonal * discs->raster().resolution_m;
+  const double half_m = discs->roadmap().clearance_m / 2;
+  const double cell_m = discs->raster().resolution_m;
+  if (point) return discs->nearest({point->x, point->y}, half_m + kRounding * cell_m);
+  const double off_m = half_m - kHalfDiagonal * cell_m;
   // The vertex's own cell will do in any case.
   return discs->nearest(centreOf(*discs, cell), std::max(0.0, off_m));
 }

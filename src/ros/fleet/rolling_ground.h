@@ -21,10 +21,15 @@ struct RollingGround {
   std::shared_ptr<const CloseMoves> moves;  ///< likewise
   double longest_step_m = 0;
 
+  /// Between centres, on a planning graph [m]; 0 on cells.
+  double distance() const { return discs ? discs->distance() : 0; }
+
   /// The vertex on which a robot counts as standing: that of its cell; on a planning graph one from
-  /// which it is off by half of the clearance at most, so that it still keeps apart from all
-  /// others.
-  std::optional<Vertex> vertexUnder(Cell cell) const;
+  /// which it is off by half of the clearance at most, and a tenth of a cell of the map as poses
+  /// are rounded, so that it still keeps apart from all others.
+  /// @param point  where it is on the raster of a planning graph; nothing: all that is known is its
+  /// cell, of which that of a vertex will do.
+  std::optional<Vertex> vertexUnder(Cell cell, const std::optional<PlanePoint>& point) const;
   /// The vertex that a goal in a cell stands for: on a planning graph the nearest within the snap
   /// distance, by a straight way on which a robot fits.
   std::optional<Vertex> vertexFor(Cell cell) const;
