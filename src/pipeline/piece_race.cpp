@@ -44,7 +44,7 @@ void PieceRace::ask(PieceWorkers& workers, const std::vector<std::size_t>& asked
   PieceWorkers::Listener listener;
   listener.begun = [this, asked](std::size_t i) { begunAway(asked[i]); };
   listener.answered = [this, asked, rows = std::move(rows)](std::size_t i, PieceAnswer answer) {
-    takeAnswer(asked[i], rows[i], std::move(answer));
+    return takeAnswer(asked[i], rows[i], std::move(answer));
   };
   auto batch = workers.ask(questions, std::move(listener));
   const std::lock_guard<std::mutex> lock(batch_mutex_);
@@ -90,19 +90,21 @@ void PieceRace::finish(std::size_t entry, Outcome outcome) {
   if (settle(entry, std::move(outcome)) && away) withdraw(entry);
 }
 
-void PieceRace::takeAnswer(std::size_t entry, const SubproblemReport& row, PieceAnswer answer) {
+bool PieceRace::takeAnswer(std::size_t entry, const SubproblemReport& row, PieceAnswer answer) {
   if (!isSound(*entries_[entry].piece, answer.result)) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (states_[entry] != State::kAway) return;
+    if (states_[entry] != State::kAway) return false;
     states_[entry] = State::kOpen;
     first_open_ = 0;
-    return;
+    return false;
   }
   Outcome outcome{std::move(answer.result), row};
   outcome.row.horizon = answer.horizon;
   outcome.row.seconds = answer.seconds;
   outcome.row.status = toString(outcome.result.termination);
-  if (settle(entry, std::move(outcome))) stops_[entry]->request();
+  if (!settle(entry, std::move(outcome))) return false;
+  stops_[entry]->request();
+  return true;
 }
 
 bool PieceRace::settle(std::size_t entry, Outcome outcome) {

@@ -53,7 +53,8 @@ class PieceRace {
   enum class State { kOpen, kAway, kHere, kBoth, kDone };
 
   void begunAway(std::size_t entry);
-  void takeAnswer(std::size_t entry, const SubproblemReport& row, PieceAnswer answer);
+  /// Whether it is sound and the first.
+  bool takeAnswer(std::size_t entry, const SubproblemReport& row, PieceAnswer answer);
   /// Puts the outcome in its place. False when there is one.
   bool settle(std::size_t entry, Outcome outcome);
   void withdraw(std::size_t entry);

@@ -23,7 +23,7 @@ constexpr std::int64_t kReconnectWaitMs = 500;
 // A server that is frozen is noticed after three of these.
 constexpr std::int64_t kPingMs = 2000;
 constexpr int kPingsOut = 2;
-// Of what is said to it meanwhile, once the buffers of the connection are full.
+// One that takes nothing for so long, once the connection's buffers are full, is left.
 constexpr std::int64_t kWriteMs = 500;
 constexpr std::int64_t kAnswerMs = 1000;  // of the server to requests about the queue
 
@@ -144,9 +144,9 @@ NatsLink::~NatsLink() {
 
 void NatsLink::close() { natsConnection_Close(connection_); }
 
-void NatsLink::requireConnected() const {
-  if (natsConnection_Status(connection_) == NATS_CONN_STATUS_CONNECTED) return;
-  throw LinkError(place_ + ": the connection has ended", false);
+std::string NatsLink::trouble() const {
+  if (natsConnection_Status(connection_) == NATS_CONN_STATUS_CONNECTED) return "";
+  return place_ + ": the connection is lost";
 }
 
 std::size_t NatsLink::mostBytes() const {
@@ -155,8 +155,11 @@ std::size_t NatsLink::mostBytes() const {
 }
 
 bool NatsLink::say(const std::string& subject, const std::string& bytes) {
-  return natsConnection_Publish(connection_, subject.c_str(), bytes.data(),
-                                static_cast<int>(bytes.size())) == NATS_OK;
+  const natsStatus status = natsConnection_Publish(connection_, subject.c_str(), bytes.data(),
+                                                   static_cast<int>(bytes.size()));
+  // Half a message may have gone out; and who speaks next would wait as long.
+  if (status == NATS_TIMEOUT) close();
+  return status == NATS_OK;
 }
 
 std::unique_ptr<LinkReader> NatsLink::listen(const std::string& subject) {

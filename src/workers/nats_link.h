@@ -77,12 +77,13 @@ class NatsLink {
 
   /// Wakes readers, which read nothing more.
   void close();
-  /// @throws LinkError while the server is away, or is silent for some seconds.
-  void requireConnected() const;
+  /// Why nobody hears what is said now; empty: nothing is known against it.
+  std::string trouble() const;
   /// Bytes that the server takes in a message.
   std::size_t mostBytes() const;
   /// Says something to who listens, or puts it into the queue, by its subject. False where it is
-  /// lost already.
+  /// lost already. Waits for half a second at most; a server that takes nothing for so long is
+  /// left: the link is closed.
   bool say(const std::string& subject, const std::string& bytes);
   std::unique_ptr<LinkReader> listen(const std::string& subject);
 

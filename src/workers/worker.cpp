@@ -29,6 +29,25 @@ constexpr std::chrono::milliseconds kSignOnItsWay(300);
 
 }  // namespace
 
+/// A piece stands among the jobs as long as this lives, however its solver ends.
+class Worker::OpenJob {
+ public:
+  OpenJob(Worker& worker, Job job) : worker_(worker) {
+    const std::lock_guard<std::mutex> lock(worker_.mutex_);
+    job_ = worker_.jobs_.insert(worker_.jobs_.end(), std::move(job));
+  }
+  ~OpenJob() {
+    const std::lock_guard<std::mutex> lock(worker_.mutex_);
+    worker_.jobs_.erase(job_);
+  }
+  OpenJob(const OpenJob&) = delete;
+  OpenJob& operator=(const OpenJob&) = delete;
+
+ private:
+  Worker& worker_;
+  std::list<Job>::iterator job_;
+};
+
 Worker::Worker(std::string url, const SolverRegistry& solvers, std::shared_ptr<const StopFlag> stop,
                const WorkerLog& log)
     : url_(std::move(url)), solvers_(solvers), stop_(std::move(stop)), log_(log) {}
@@ -47,6 +66,9 @@ void Worker::serve(std::uint32_t threads) {
       if (error.isRefusal()) throw;
       if (error.what() != last_trouble) say(std::string("waiting for the server: ") + error.what());
       last_trouble = error.what();
+    } catch (const std::bad_alloc&) {
+      // The pieces go to others, or are solved at home.
+      last_trouble.clear();
     }
     for (auto begin = Clock::now(); Clock::now() - begin < kTryAgain && !stop_->requested();) {
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -72,7 +94,7 @@ void Worker::serveOnce(std::uint32_t threads) {
   std::vector<std::thread> running;
   guarded([&] {
     while (running.size() < threads) {
-      running.emplace_back([&] { guarded([&] { takePieces(link, *leave); }); });
+      running.emplace_back([&] { guarded([&] { takePieces(link, leave); }); });
     }
   });
   guarded([&] { watch(link, *leave); });
@@ -80,34 +102,30 @@ void Worker::serveOnce(std::uint32_t threads) {
   if (error) std::rethrow_exception(error);
 }
 
-void Worker::takePieces(NatsLink& link, const StopFlag& leave) {
+void Worker::takePieces(NatsLink& link, const std::shared_ptr<const StopFlag>& leave) {
   const std::unique_ptr<LinkReader> queue =
       link.readQueue(piecesOfThisBuild(), readersOfThisBuild());
   say("ready");
-  while (!leave.requested()) {
+  while (!leave->requested()) {
     const std::shared_ptr<LinkMessage> message = queue->nextOfQueue(kPollSec);
-    if (message) work(link, message);
+    if (message) work(link, message, leave);
   }
 }
 
-void Worker::work(NatsLink& link, const std::shared_ptr<LinkMessage>& message) {
+void Worker::work(NatsLink& link, const std::shared_ptr<LinkMessage>& message,
+                  const std::shared_ptr<const StopFlag>& leave) {
   const std::optional<PieceAddress> address = addressOf(message->subject());
   if (!address) return message->settle();
   if (!hearsOf(address->client)) return message->settle();
-  const auto stop = std::make_shared<StopFlag>(stop_);
+  const auto stop = std::make_shared<StopFlag>(leave);
   const std::string bytes = message->bytes();
-  JobHandle job;
+  std::string answer;
   {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    job = jobs_.insert(jobs_.end(), Job{*address, message, stop});
+    const OpenJob job(*this, Job{*address, message, stop});
+    link.say(address->answer(), "");  // begun
+    answer = solve(bytes, stop, address->name());
   }
-  link.say(address->answer(), "");  // begun
-  const std::string answer = solve(bytes, stop, address->name());
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    jobs_.erase(job);
-  }
-  if (stop_->requested()) return message->giveBack();
+  if (leave->requested()) return message->giveBack();
   if (!answer.empty() && !stop->requested() && answer.size() <= link.mostBytes()) {
     link.say(address->answer(), answer);
   }

@@ -33,12 +33,13 @@ class Worker {
     std::shared_ptr<LinkMessage> message;
     std::shared_ptr<StopFlag> stop;
   };
-  using JobHandle = std::list<Job>::iterator;
+  class OpenJob;
 
   /// With one connection, until it ends.
   void serveOnce(std::uint32_t threads);
-  void takePieces(NatsLink& link, const StopFlag& leave);
-  void work(NatsLink& link, const std::shared_ptr<LinkMessage>& message);
+  void takePieces(NatsLink& link, const std::shared_ptr<const StopFlag>& leave);
+  void work(NatsLink& link, const std::shared_ptr<LinkMessage>& message,
+            const std::shared_ptr<const StopFlag>& leave);
   /// The answer as bytes; empty: there is none.
   std::string solve(const std::string& bytes, const std::shared_ptr<StopFlag>& stop,
                     const std::string& name);

@@ -1,6 +1,8 @@
 #include "workers/worker_client.h"
 
 #include <chrono>
+#include <exception>
+#include <new>
 #include <random>
 #include <utility>
 
@@ -75,7 +77,7 @@ RemoteWorkers::Tally WorkerClient::tally() const { return {asked_, answered_}; }
 
 std::string WorkerClient::trouble() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return trouble_;
+  return link_ ? link_->trouble() : trouble_;
 }
 
 std::unique_ptr<PieceWorkers::Batch> WorkerClient::ask(const std::vector<PieceQuestion>& questions,
@@ -95,7 +97,9 @@ std::unique_ptr<PieceWorkers::Batch> WorkerClient::ask(const std::vector<PieceQu
   link->say(signsOf(client_), "alive");
   for (; address.question < questions.size(); ++address.question) {
     const std::string bytes = toBytes(questions[address.question]);
-    if (bytes.size() <= link->mostBytes() && link->say(address.piece(), bytes)) ++asked_;
+    if (bytes.size() > link->mostBytes()) continue;
+    if (!link->say(address.piece(), bytes)) break;  // nor would it take the next
+    ++asked_;
   }
   return batch;
 }
@@ -118,13 +122,20 @@ std::shared_ptr<NatsLink> WorkerClient::link() {
 }
 
 void WorkerClient::run() {
-  while (const std::shared_ptr<NatsLink> link = connect()) {
+  for (;;) {
     try {
+      const std::shared_ptr<NatsLink> link = connect();
+      if (!link) return;
       listen(link);
-    } catch (const LinkError& error) {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      trouble_ = error.what();
+    } catch (const std::exception& error) {  // memory may run out too, which ends nobody's plan
+      std::unique_lock<std::mutex> lock(mutex_);
       link_.reset();
+      try {
+        trouble_ = error.what();
+      } catch (const std::bad_alloc&) {
+        trouble_.clear();
+      }
+      changed_.wait_for(lock, kTryAgain, [this] { return closing_; });
     }
   }
 }
@@ -165,10 +176,14 @@ void WorkerClient::listen(const std::shared_ptr<NatsLink>& link) {
   Clock::time_point last_sign = Clock::now();
   for (;;) {
     if (const auto message = answers->next(kPollSec)) take(*message);
-    link->requireConnected();
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (closing_) return;
-    if (batches_.empty() || Clock::now() - last_sign < kSignOfLife) continue;
+    if (const std::string trouble = link->trouble(); !trouble.empty()) {
+      throw LinkError(trouble, false);
+    }
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (closing_) return;
+      if (batches_.empty() || Clock::now() - last_sign < kSignOfLife) continue;
+    }
     last_sign = Clock::now();
     link->say(signsOf(client_), "alive");
   }
@@ -186,16 +201,17 @@ void WorkerClient::take(const LinkMessage& message) {
   }
   const std::lock_guard<std::mutex> lock(told->mutex);
   if (told->ended || address->question >= told->questions) return;
-  const std::string bytes = message.bytes();
-  if (bytes.empty()) return told->listener.begun(address->question);
-  ++answered_;
   try {
-    told->listener.answered(address->question, answerFromBytes(bytes));
+    const std::string bytes = message.bytes();
+    if (bytes.empty()) return told->listener.begun(address->question);
+    if (told->listener.answered(address->question, answerFromBytes(bytes))) ++answered_;
   } catch (const InputError&) {
     // Worth no more than none: the piece is solved here.
     PieceAnswer broken;
     broken.result.termination = Termination::kCancelled;
     told->listener.answered(address->question, std::move(broken));
+  } catch (const std::bad_alloc&) {
+    // Threads take what workers are at when nothing else is left: this piece too.
   }
 }
 

@@ -17,10 +17,10 @@ class RemoteWorkers : public PieceWorkers {
   /// Since the beginning.
   struct Tally {
     std::uint64_t asked = 0;     ///< questions
-    std::uint64_t answered = 0;  ///< that came back, the slower ones too
+    std::uint64_t answered = 0;  ///< sound, and before this process had its own
   };
   virtual Tally tally() const = 0;
-  /// Why nobody could be asked up to now, in words; empty: somebody could.
+  /// Why nobody can be asked now, in words; empty: somebody can.
   virtual std::string trouble() const = 0;
 };
 

@@ -47,6 +47,48 @@ class Lines:
                 raise AssertionError(f"no {part!r} in {self.lines}")
 
 
+class FreezingServer:
+    """Stands before the server for one client, and reads nothing more once that one listens."""
+
+    def __init__(self, host, port):
+        self.server = socket.create_connection((host, port))
+        self.door = socket.socket()
+        # What has been said and is not read fills buffers soon.
+        self.door.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+        self.door.bind((host, 0))
+        self.door.listen(1)
+        self.port = self.door.getsockname()[1]
+        self.frozen = threading.Event()
+        self.client = None
+
+    def __enter__(self):
+        threading.Thread(target=self.forward_questions, daemon=True).start()
+        return self
+
+    def __exit__(self, *_):
+        for connection in (self.server, self.door, self.client):
+            connection.close()
+
+    def forward_questions(self):
+        self.client, _ = self.door.accept()
+        threading.Thread(target=self.forward_answers, daemon=True).start()
+        seen = b""
+        while b"SUB split_mapf.answers" not in seen:
+            words = self.client.recv(4096)
+            if not words:
+                return
+            self.server.sendall(words)
+            seen = seen[-100:] + words
+        self.frozen.set()
+
+    def forward_answers(self):
+        try:
+            while True:
+                self.client.sendall(self.server.recv(1 << 16))
+        except OSError:
+            pass
+
+
 @unittest.skipUnless(SERVER and BUILD_HAS_WORKERS, "no nats-server, or a build without libnats")
 class WorkersCase(CommandTest):
     # Eight pieces and more, some of a tenth of a second.
@@ -105,9 +147,9 @@ class WorkersCase(CommandTest):
         worker.lines.wait_for("ready")
         return worker
 
-    def begin_plan(self, url=None, **options):
+    def begin_plan(self, url=None, words=OPTIONS, **options):
         return self.run_beside(
-            [COMMAND, "plan", *self.files("p"), *self.OPTIONS, "--output", "p.json", "--workers",
+            [COMMAND, "plan", *self.files("p"), *words, "--output", "p.json", "--workers",
              url or self.url()], prefix=self.plan_prefix, stdout=subprocess.DEVNULL,
             stderr=subprocess.PIPE, **options)
 
@@ -193,6 +235,15 @@ class WorkersTest(WorkersCase):
         self.server.send_signal(signal.SIGSTOP)
         self.end_plan(plan)
 
+    def test_a_server_that_freezes_before_it_is_asked_holds_nobody_up(self):
+        self.generate("p", "--width", 900, "--height", 900, "--density", 0.1, "--agents", 200)
+        with FreezingServer(self.host, self.port) as server:
+            plan = self.begin_plan(f"nats://fleet:{PASSWORD}@{self.host}:{server.port}",
+                                   words=("--solver", "ecbs", "--split", "40t"))
+            _, error = plan.communicate(timeout=PATIENCE_S)
+        self.assertEqual(plan.returncode, 0, error)
+        self.assertTrue(server.frozen.is_set())
+
     def test_a_worker_of_another_version_gets_no_piece(self):
         with open(COMMAND, "rb") as file:
             program = file.read()
@@ -242,7 +293,8 @@ class WorkersTest(WorkersCase):
         poisoner.start()
         try:
             self.poisoned.wait(PATIENCE_S)
-            self.assertGreater(self.end_plan(self.begin_plan()), 0)
+            self.assertEqual(self.end_plan(self.begin_plan()), 0)
+            self.assertRegex(self.error, "[1-9][0-9]* pieces? asked, 0 answers")
         finally:
             stop.set()
             poisoner.join()

@@ -35,7 +35,8 @@ class PieceWorkers {
     /// Somebody elsewhere is at it. May be told several times.
     std::function<void(std::size_t question)> begun;
     /// What came back, from whom ever: nothing of it has been checked but that it is an answer.
-    std::function<void(std::size_t question, PieceAnswer answer)> answered;
+    /// Whether it was taken: it is sound, and the first.
+    std::function<bool(std::size_t question, PieceAnswer answer)> answered;
   };
 
   /// Questions that were asked together. Its end withdraws what is open; the listener is told
