@@ -2,6 +2,7 @@
 
 Used by scripts/evaluate, whose help says what a user has to know.
 """
+import hashlib
 import os
 import platform
 import shlex
@@ -99,6 +100,9 @@ class Description:
                 raise ValueError("%s: experiment %s: '%s' says nothing; there are %s"
                                  % (self.path, name, sorted(unknown)[0],
                                     ", ".join(sorted(allowed))))
+        if not all({**merged, **series}.get("map") for series in merged["series"].values()):
+            raise ValueError("%s: experiment %s needs a map, or each of its series one"
+                             % (self.path, name))
         for part in [merged, *merged["series"].values()]:
             for place in listed(part.get("map")):
                 if place is not None and place not in self.maps:
@@ -126,7 +130,7 @@ class Description:
                                    ("objective", "solver", "split", "suboptimality", "limit",
                                     "refine", "seed")},
                                 "experiment": name, "series": label, "map": place,
-                                "source": "data" if self.data_of(place) else "generated",
+                                "source": self.source_of(place),
                                 "robots": robots,
                                 "scenario": 1 + number // what["repetitions"],
                                 "repetition": 1 + number % what["repetitions"],
@@ -140,6 +144,13 @@ class Description:
         path = os.path.join(self.data, name) if self.data and name else None
         return path if path and os.path.exists(path + ".map") else None
 
+    def source_of(self, place):
+        """Where the map is from: data, or generated, with a hash of the words that generate it."""
+        if self.data_of(place):
+            return "data"
+        words = self.maps[place]["generate"].encode("utf-8")
+        return "generated-" + hashlib.sha256(words).hexdigest()[:8]
+
     def files_of(self, run, folder):
         """Map and scenario of a run; generates what is not there."""
         data = self.data_of(run["map"])
@@ -147,8 +158,8 @@ class Description:
             return data + ".map", "%s-random-%d.scen" % (data, run["scenario"])
         os.makedirs(os.path.join(folder, "maps"), exist_ok=True)
         # With each number of robots the same seed gives the same map.
-        stem = os.path.join(folder, "maps", "%s-%d-%d"
-                            % (run["map"], run["robots"], run["scenario"]))
+        stem = os.path.join(folder, "maps", "%s-%s-%d-%d" % (
+            run["map"], run["source"].rpartition("-")[2], run["robots"], run["scenario"]))
         if not os.path.exists(stem + ".scen"):
             words = [COMMAND, "generate", *shlex.split(self.maps[run["map"]]["generate"]),
                      "--agents", str(run["robots"]), "--seed", str(run["scenario"]),

@@ -126,7 +126,7 @@ def others_of(description, name, rows):
     if description.experiments[name].get("compare") != "authors":
         return []
     for row in rows:
-        if row["source"] == "generated" and description.maps[row["map"]].get("alike") is False:
+        if row["source"] != "data" and description.maps[row["map"]].get("alike") is False:
             return []
     return [figure for figure in figures_of("authors_figures.csv") if figure["experiment"] == name]
 

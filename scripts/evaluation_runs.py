@@ -4,6 +4,7 @@ Used by scripts/evaluate, whose help says what a user has to know.
 """
 import csv
 import datetime
+import fcntl
 import json
 import os
 import shlex
@@ -35,6 +36,13 @@ class Table:
     def __init__(self, path):
         self.path = path
         self.rows = {}
+        # Two calls at once would read each other's results.
+        # pylint: disable-next=consider-using-with
+        self.lock = open(path + ".lock", "w", encoding="utf-8")
+        try:
+            fcntl.flock(self.lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError as error:
+            raise ValueError("another call is at work in %s" % os.path.dirname(path)) from error
         if not os.path.exists(path):
             return
         with open(path, encoding="utf-8", newline="") as file:

@@ -1,6 +1,7 @@
 """scripts/evaluate runs what a description says, once, and keeps a row of each run."""
 
 import csv
+import fcntl
 import importlib.util
 import os
 import subprocess
@@ -62,7 +63,8 @@ class EvaluateTest(CommandTest):
                           for robots in ("5", "10") for scenario in ("1", "2")])
         for row in rows:
             self.assertEqual((row["status"], row["solver"], row["source"]),
-                             ("solved", "ecbs", "generated"))
+                             ("solved", "ecbs", self.rows()[0]["source"]))
+            self.assertRegex(row["source"], "^generated-[0-9a-f]{8}$")
             self.assertGreaterEqual(int(row["makespan"]), int(row["makespan_lower_bound"]))
             self.assertGreater(float(row["peak_mib"]), 1)
             self.assertIn("validate=", row["stages"])
@@ -89,6 +91,20 @@ class EvaluateTest(CommandTest):
         self.evaluate("--quick", "splits")
         self.assertEqual([row["robots"] for row in self.rows()], ["5", "5"])
 
+    def test_a_map_that_is_generated_otherwise_is_another(self):
+        self.evaluate("--quick", "splits")
+        self.write("description.yaml", DESCRIPTION.replace("--width 16", "--width 9"))
+        self.evaluate("--quick", "splits")
+        self.assertEqual(len(self.rows()), 4)
+        self.assertEqual(len([name for name in os.listdir(self.path("out/maps"))
+                              if name.endswith(".scen")]), 2)
+
+    def test_two_calls_at_once_do_not_read_each_others_results(self):
+        os.makedirs(self.path("out"))
+        with open(self.path("out/runs.csv.lock"), "w", encoding="utf-8") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            self.assertIn("another call is at work", self.evaluate("splits", code=1).stderr)
+
     def test_more_robots_are_not_tried_where_fewer_had_no_plan(self):
         self.evaluate("hopeless")
         self.assertEqual([(row["robots"], row["status"]) for row in self.rows()],
@@ -108,6 +124,7 @@ class EvaluateTest(CommandTest):
                                ("    map: small\n    solver", "    map: large\n    solver",
                                 "map 'large' is not among the maps"),
                                ("    title: Splits\n", "", "needs a title"),
+                               ("    map: small\n    solver", "    solver", "needs a map"),
                                ("plot: robots", "plot: pie", "'pie'")]:
             with self.subTest(new=new):
                 self.write("description.yaml", DESCRIPTION.replace(old, new, 1))
