@@ -65,6 +65,8 @@ std::string faultOf(const Instance& instance, const Plan& plan) {
   return "";
 }
 
+bool isUpToTheClock(const PlanReport& report) { return report.runtime_sec > kLimitSec / 20; }
+
 KnownInstance::KnownInstance(DrawnInstance drawn) : drawn_(std::move(drawn)) {
   if (!drawn_.has_oracle) return;
   for (const Objective objective : kObjectives) {
@@ -104,8 +106,8 @@ std::string KnownInstance::faultOfTermination(const PlanRequest& request,
   const bool gave_up = report.termination == Termination::kNoPlanFound;
   const bool promises =
       request.solver == "auto" || availableSolvers().info(request.solver).traits.complete;
-  if (is_solvable_ && gave_up && promises && request.solver_options.empty() &&
-      request.split_options.empty()) {
+  if (is_solvable_ && gave_up && promises && !isUpToTheClock(report) &&
+      request.solver_options.empty() && request.split_options.empty()) {
     return "a complete method gave up on what is solvable: " + report.message;
   }
   return "";

@@ -16,6 +16,11 @@ namespace split_mapf::fuzz {
 /// is, no two change places. Empty: nothing.
 std::string faultOf(const Instance& instance, const Plan& plan);
 
+constexpr double kLimitSec = 0.1;  ///< of each request
+
+/// Whether a faster machine may give another answer: some stages give up by shares of the limit.
+bool isUpToTheClock(const PlanReport& report);
+
 /// What is known of an instance: by the oracle, or, where it is too large for one, by the answers
 /// so far, which must not contradict each other.
 class KnownInstance {

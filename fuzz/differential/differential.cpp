@@ -26,7 +26,6 @@ namespace split_mapf::fuzz {
 namespace {
 
 constexpr std::uint64_t kRequestsAnInstance = 8;
-constexpr double kLimitSec = 0.1;
 
 class Differential {
  public:
@@ -72,6 +71,8 @@ class Differential {
       if (!fault.empty() || !again || request.refine_sec > 0) return fault;
       request.threads = 3 - request.threads;
       const PlanReport other = plan(known.instance(), request);
+      fault = known.faultOf(request, other);
+      if (!fault.empty()) return "on another number of threads: " + fault;
       if (isUpToTheClock(report) || isUpToTheClock(other)) return "";
       ++twice_;
       const bool same = report.termination == other.termination &&
@@ -95,11 +96,6 @@ class Differential {
     return toString(report.termination) + " in " + std::to_string(report.runtime_sec) +
            " s, makespan " + std::to_string(report.makespan) + ", sum of costs " +
            std::to_string(report.sum_of_costs) + " (" + report.message + ")";
-  }
-
-  /// Some stages give up by shares of the limit.
-  static bool isUpToTheClock(const PlanReport& report) {
-    return report.runtime_sec > kLimitSec / 20;
   }
 
   std::uint64_t runs_;
