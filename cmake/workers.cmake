@@ -9,10 +9,19 @@ endif()
 if(SPLIT_MAPF_WORKERS AND NATS_INCLUDE_DIR AND NATS_LIBRARY)
   include(cmake/hashed_sources.cmake)
   split_mapf_hashed_sources(${CMAKE_CURRENT_SOURCE_DIR} SPLIT_MAPF_HASHED)
+  # Flags that hold folders of one machine change no plan.
+  string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
+  string(REGEX REPLACE "-f[a-z]+-prefix-map=[^ ]*" "" flags "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${build_type}}")
+  set(versions "Boost ${Boost_VERSION}")
+  if(SPLIT_MAPF_ILP)
+    # Of the header; a library of another version at run time is not noticed.
+    file(STRINGS ${GLPK_INCLUDE_DIR}/glpk.h glpk REGEX "^#define GLP_(MAJOR|MINOR)_VERSION")
+    string(APPEND versions " GLPK ${glpk}")
+  endif()
   set(source_hash ${CMAKE_CURRENT_BINARY_DIR}/source_hash.cpp)
   add_custom_command(OUTPUT ${source_hash}
     COMMAND ${CMAKE_COMMAND} -DROOT=${CMAKE_CURRENT_SOURCE_DIR} -DOUTPUT=${source_hash} -DVERSION=${PROJECT_VERSION}
-      "-DFLAVOUR=${CMAKE_SYSTEM_PROCESSOR} ${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_BUILD_TYPE} ${SPLIT_MAPF_ILP} ${SPLIT_MAPF_SANITIZE}"
+      "-DFLAVOUR=${CMAKE_SYSTEM_PROCESSOR} ${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_BUILD_TYPE} ${SPLIT_MAPF_ILP} ${SPLIT_MAPF_SANITIZE} ${flags} ${versions}"
       -P ${CMAKE_CURRENT_SOURCE_DIR}/cmake/source_hash.cmake
     DEPENDS ${SPLIT_MAPF_HASHED} cmake/source_hash.cmake cmake/hashed_sources.cmake VERBATIM)
   file(GLOB SPLIT_MAPF_WORKERS_SOURCES CONFIGURE_DEPENDS src/workers/*.cpp)
