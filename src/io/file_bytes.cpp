@@ -1,5 +1,7 @@
 #include "io/file_bytes.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -34,34 +36,62 @@ int errorOfWriting(const std::string& path, const std::string& bytes) {
 }
 
 /// Whether other bytes may take the place of what stands there: nothing, or a plain file that may
-/// be written. Pipes, devices and links to nowhere are written as they are.
+/// be written and has no second name. Pipes, devices, links to nowhere and files whose name is gone
+/// are written as they are.
 bool isReplaceable(const std::string& path) {
-  std::error_code ignored;
-  const auto link = std::filesystem::symlink_status(path, ignored);
+  std::error_code fault;
+  const auto link = std::filesystem::symlink_status(path, fault);
   if (link.type() == std::filesystem::file_type::not_found) return true;
-  return std::filesystem::is_regular_file(path, ignored) && ::access(path.c_str(), W_OK) == 0;
+  if (!std::filesystem::is_regular_file(path, fault) || ::access(path.c_str(), W_OK) != 0) {
+    return false;
+  }
+  if (std::filesystem::hard_link_count(path, fault) != 1 || fault) return false;
+  return !std::filesystem::canonical(path, fault).empty();
 }
 
-unsigned nextNumber() {
-  static std::atomic<unsigned> count{0};
-  return count++;
-}
-
-/// A name beside the file that no other thread or process uses. What still bears it at the end is
-/// removed.
-class FreshName {
+/// A file of its own beside another. What still bears its name at the end is removed.
+class FreshFile {
  public:
-  explicit FreshName(const std::string& path)
-      : name_(path + "." + std::to_string(::getpid()) + "-" + std::to_string(nextNumber()) +
-              ".part") {}
-  FreshName(const FreshName&) = delete;
-  FreshName& operator=(const FreshName&) = delete;
-  ~FreshName() { ::unlink(name_.c_str()); }
+  /// @param old  what it is to replace, whose owner and mode it has; null: nothing.
+  FreshFile(const std::string& path, const struct stat* old) {
+    static std::atomic<unsigned> count{0};
+    // A file that nobody else may read is readable for nobody else from the beginning.
+    const mode_t mode = old != nullptr ? S_IRUSR | S_IWUSR : 0666;
+    do {
+      name_ = path + "." + std::to_string(::getpid()) + "-" + std::to_string(count++) + ".part";
+      file_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    } while (file_ < 0 && errno == EEXIST);
+    if (file_ < 0 || (old != nullptr && (::fchown(file_, old->st_uid, old->st_gid) != 0 ||
+                                         ::fchmod(file_, old->st_mode & 07777U) != 0))) {
+      error_ = errno;
+    }
+  }
+  FreshFile(const FreshFile&) = delete;
+  FreshFile& operator=(const FreshFile&) = delete;
+  ~FreshFile() {
+    if (file_ < 0) return;
+    ::close(file_);
+    if (!is_moved_) ::unlink(name_.c_str());
+  }
 
-  const std::string& text() const { return name_; }
+  /// Writes them and takes the place of the target; returns the system's error, 0 for none.
+  int errorOfBecoming(const std::string& target, const std::string& bytes) {
+    if (error_ != 0) return error_;
+    for (std::size_t done = 0; done < bytes.size();) {
+      const ssize_t written = ::write(file_, bytes.data() + done, bytes.size() - done);
+      if (written < 0 && errno != EINTR) return errno;
+      if (written > 0) done += static_cast<std::size_t>(written);
+    }
+    if (std::rename(name_.c_str(), target.c_str()) != 0) return errno;
+    is_moved_ = true;
+    return 0;
+  }
 
  private:
   std::string name_;
+  int file_ = -1;
+  int error_ = 0;
+  bool is_moved_ = false;
 };
 
 /// Whether no other file can be made there or take its place (EBUSY: it is mounted by itself),
@@ -73,18 +103,16 @@ bool isNoPlaceForAnother(int error) {
 
 /// Puts a whole new file in the place of an old one; returns the system's error, 0 for none.
 int errorOfReplacing(const std::string& path, const std::string& bytes) {
-  std::error_code fault;
-  const auto old = std::filesystem::status(path, fault);
-  // What a link names is replaced, not the link.
-  const std::string target =
-      std::filesystem::exists(old) ? std::filesystem::canonical(path, fault).string() : path;
-  if (fault && std::filesystem::exists(old)) return fault.value();
-  const FreshName fresh(target);
-  if (const int error = errorOfWriting(fresh.text(), bytes)) return error;
-  if (std::filesystem::exists(old)) {
-    std::filesystem::permissions(fresh.text(), old.permissions(), fault);
+  struct stat old = {};
+  if (::stat(path.c_str(), &old) != 0) {
+    if (errno != ENOENT) return errno;
+    return FreshFile(path, nullptr).errorOfBecoming(path, bytes);
   }
-  return std::rename(fresh.text().c_str(), target.c_str()) == 0 ? 0 : errno;
+  // What a link names is replaced, not the link.
+  std::error_code fault;
+  const std::string target = std::filesystem::canonical(path, fault).string();
+  if (fault) return fault.value();
+  return FreshFile(target, &old).errorOfBecoming(target, bytes);
 }
 
 }  // namespace

@@ -12,8 +12,9 @@ std::string readFile(const std::string& path);
 /// stream keeps to itself, so that its text ends anywhere.
 std::string wholeText(const std::ostringstream& out);
 /// Writes a whole file, or none: it is made beside `path` and takes its place when it is whole, so
-/// where it fails what was there stays. Pipes and devices, and a file in a folder that takes no
-/// other, are written as they are. @throws InputError naming the file and the system's reason.
+/// where it fails what was there stays, and owner and mode stay in any case. Pipes and devices, a
+/// file with several names, of another owner, or in a folder that takes no other, are written as
+/// they are. @throws InputError naming the file and the system's reason.
 void writeFile(const std::string& path, const std::string& bytes);
 
 /// Ends the reading of a text file: "path:line: message".

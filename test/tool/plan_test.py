@@ -2,10 +2,12 @@
 
 import os
 import re
+import subprocess
+import tempfile
 import time
 import unittest
 
-from command import OPTIMAL, CommandTest
+from command import COMMAND, OPTIMAL, CommandTest
 
 FIELDS = ["status", "message", "solver", "split", "objective", "seed", "threads", "agents",
           "makespan", "sum_of_costs", "makespan_lower_bound", "sum_of_costs_lower_bound",
@@ -74,6 +76,28 @@ class PlanTest(CommandTest):
         self.assertEqual(seen, sorted(seen, reverse=True))
         self.assertFalse(os.path.exists(self.path("g.json.part")))
         self.expect(0, "validate", *self.files("g"), "--plan", "g.json")
+
+    def test_a_file_that_is_written_again_keeps_its_names_and_its_mode(self):
+        self.write_problem("p", ["...", "@.@"], [((0, 0), (2, 0))])
+        self.write("a.json", "old")
+        os.link(self.path("a.json"), self.path("b.json"))
+        self.expect(0, "plan", *self.files("p"), "--output", "a.json")
+        self.assertEqual(self.read_json("b.json")["status"], "solved")
+        self.write("c.json", "old")
+        os.chmod(self.path("c.json"), 0o600)
+        self.expect(0, "plan", *self.files("p"), "--output", "c.json")
+        self.assertEqual(os.stat(self.path("c.json")).st_mode & 0o777, 0o600)
+        self.assertEqual([name for name in os.listdir(self.folder) if ".part" in name], [])
+
+    def test_writes_into_a_file_whose_name_is_gone(self):
+        self.write_problem("p", ["...", "@.@"], [((0, 0), (2, 0))])
+        with tempfile.TemporaryFile(dir=self.folder) as out:
+            result = subprocess.run(
+                [COMMAND, "plan", *self.files("p"), "--output", "/dev/stdout", "--quiet"],
+                cwd=self.folder, stdout=out, stderr=subprocess.PIPE, check=False)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            out.seek(0)
+            self.assertIn(b'"solved"', out.read())
 
     def test_write_better_needs_a_file(self):
         self.write_problem("p", ["...", "@.@"], [((0, 0), (2, 0))])
