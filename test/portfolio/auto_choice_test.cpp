@@ -45,10 +45,13 @@ TEST(AutoChoice, ACrowdsTurnWasTimeThatAnotherNeeded) {
   - {solver: sturdy, objective: makespan, log_seconds: [2, 0, 0, 0, 0, 0, 0],
      log_excess: [-9, 0, 0, 0, 0, 0, 0]}
 )");
-  const auto turn = [&](std::uint32_t robots) {
-    return static_cast<double>(chooseMethod(question(robots), model).turn);
+  const auto turn = [&](std::uint32_t robots, std::uint32_t cells) {
+    AutoQuestion asked = question(robots);
+    asked.features.cells = cells;
+    return static_cast<double>(chooseMethod(asked, model).turn);
   };
-  EXPECT_NEAR(turn(5000) / turn(4000), 6.0 / 25, 1e-6);
+  EXPECT_NEAR(turn(5000, 20000) / turn(4000, 20000), 6.0 / 25, 1e-6);
+  EXPECT_EQ(turn(5000, 1000000), turn(4000, 1000000)) << "there is room for all";
 }
 
 TEST(AutoChoice, ALoosePlanBeforeRefinementWhereRobotsMeetHeadOn) {
