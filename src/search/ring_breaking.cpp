@@ -82,11 +82,11 @@ class RingBreaking {
       if (!best.empty() && slack == 0) break;
       const std::uint32_t own = order[event].robot;
       const auto cost = static_cast<std::uint32_t>(plan_.paths[own].size() - 1);
-      const std::uint32_t most = reach == kForever ? kForever - 1 : cost + kMostDelay;
+      const bool from_start = keptOf(order[event], kReach) == keptOf(order[event], kForever);
+      if (reach == kForever && from_start) continue;  // it has looked already, and for all time
+      const bool for_all_time = reach == kForever || from_start;
+      const std::uint32_t most = for_all_time ? kForever - 1 : cost + kMostDelay;
       const std::uint32_t latest = best.empty() ? most : cost + slack - 1;
-      // From its start it has looked already.
-      if (reach == kForever && keptOf(order[event], kReach) == keptOf(order[event], reach))
-        continue;
       Path path = pathWithout(order[event], reach, latest);
       if (path.empty()) continue;
       slack = std::max(static_cast<std::uint32_t>(path.size() - 1), cost) - cost;
