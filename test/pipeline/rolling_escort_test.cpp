@@ -14,34 +14,41 @@ namespace {
 
 using namespace test;
 
-TEST(Rolling, LeadsRobotsOnThatOnlyAJointPlanCanPart) {
-  // Two that meet in a lane whose only pocket lies behind one of them, further than the window.
-  const GridPtr grid = gridFromAscii({"..................", "#.################"});
+/// Of two that meet in it the only pocket lies behind one of them, further than the window.
+GridPtr lane() { return gridFromAscii({"..................", "#.################"}); }
+
+RollingQuestion meeting(const Grid& grid) {
+  RollingQuestion question;
+  const Vertex left = grid.vertexAt({0, 0});
+  const Vertex right = grid.vertexAt({17, 0});
+  question.robots = {robotAt(0, left, {right}), robotAt(1, right, {left})};
+  return question;
+}
+
+RollReport meetInALane(RollOptions options) {
+  const GridPtr grid = lane();
   RollTask task;
   task.starts = {grid->vertexAt({0, 0}), grid->vertexAt({17, 0})};
   task.goals = {{task.starts[1], task.starts[0]}, {task.starts[0], task.starts[1]}};
-  RollOptions options;
   options.steps = 400;
   options.warmup = 0;
   options.rolling.window = 5;
+  return roll(grid, task, options);
+}
+
+TEST(Rolling, LeadsRobotsOnThatOnlyAJointPlanCanPart) {
+  RollOptions options;
   options.step_expansions = 300;
-  const RollReport report = roll(grid, task, options);
+  const RollReport report = meetInALane(options);
   EXPECT_GT(report.escorts, 0U);
   EXPECT_EQ(report.reached[0].size(), 2U);
   EXPECT_EQ(report.reached[1].size(), 2U);
 }
 
 TEST(Rolling, ImprovesOnceWhereAValidWindowTakesTheWholeStep) {
-  const GridPtr grid = gridFromAscii({"..................", "#.################"});
-  RollTask task;
-  task.starts = {grid->vertexAt({0, 0}), grid->vertexAt({17, 0})};
-  task.goals = {{task.starts[1], task.starts[0]}, {task.starts[0], task.starts[1]}};
   RollOptions options;
-  options.steps = 400;
-  options.warmup = 0;
-  options.rolling.window = 5;
   options.step_sec = 1e-9;
-  const RollReport report = roll(grid, task, options);
+  const RollReport report = meetInALane(options);
   EXPECT_GT(report.expansions, 0U);
   EXPECT_GT(report.escorts, 0U);
   EXPECT_EQ(report.reached[0].size(), 2U);
@@ -118,11 +125,8 @@ void bindRobots(const GridPtr& grid, std::size_t steps, RollingQuestion& questio
 }
 
 TEST(RollingEscorts, LeadOnWhoIsBoundForManySteps) {
-  const GridPtr grid = gridFromAscii({"..................", "#.################"});
-  RollingQuestion question;
-  const Vertex left = grid->vertexAt({0, 0});
-  const Vertex right = grid->vertexAt({17, 0});
-  question.robots = {robotAt(0, left, {right}), robotAt(1, right, {left})};
+  const GridPtr grid = lane();
+  RollingQuestion question = meeting(*grid);
   Rolling rolling(grid, windowOf(5));
   std::uint32_t led = 0;
   for (int step = 0; step < 300; ++step) {
@@ -145,11 +149,8 @@ TEST(RollingEscorts, LeadOnWhoIsBoundForManySteps) {
 }
 
 TEST(RollingEscorts, AreSoughtWhenAValidWindowIsThere) {
-  const GridPtr grid = gridFromAscii({"..................", "#.################"});
-  RollingQuestion question;
-  const Vertex left = grid->vertexAt({0, 0});
-  const Vertex right = grid->vertexAt({17, 0});
-  question.robots = {robotAt(0, left, {right}), robotAt(1, right, {left})};
+  const GridPtr grid = lane();
+  RollingQuestion question = meeting(*grid);
   Rolling rolling(grid, windowOf(5));
   for (int step = 0; step < 100; ++step) {
     rolling.begin(question);
