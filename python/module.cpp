@@ -56,12 +56,7 @@ Call::Listener listenerOf(const Callback& callback, const std::shared_ptr<const 
 /// The report of a call that ended before the planner began.
 PlanReport endedBefore(const PlanRequest& request, const Problem& problem,
                        const Deadline& deadline) {
-  PlanReport report;
-  report.solver = request.solver;
-  report.split = request.split;
-  report.objective = request.objective;
-  report.seed = request.seed;
-  report.robots = static_cast<std::uint32_t>(problem.starts.size());
+  PlanReport report = reportOf(request, static_cast<std::uint32_t>(problem.starts.size()));
   report.termination = deadline.stopRequested() ? Termination::kCancelled : Termination::kTimeout;
   report.message = "before the map was there";
   return report;

@@ -10,6 +10,7 @@
 #include "pipeline/table_bytes.h"
 #include "portfolio/solver_choice.h"
 #include "split_mapf/core/validate.h"
+#include "split_mapf/pipeline/planner.h"
 
 namespace split_mapf {
 namespace {
@@ -167,13 +168,8 @@ void BandRun::addTimes(PlanReport& report) const {
 }
 
 PlanReport BandRun::emptyReport() const {
-  PlanReport report;
-  report.solver = request_.asked.solver;
-  report.split = request_.asked.split;
-  report.objective = request_.asked.objective;
-  report.seed = request_.asked.seed;
+  PlanReport report = reportOf(request_.asked, instance_.robots());
   report.threads = executor_.threadsFor(request_.asked.threads);
-  report.robots = instance_.robots();
   return report;
 }
 

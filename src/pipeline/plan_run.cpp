@@ -13,6 +13,7 @@
 #include "split_mapf/core/compaction.h"
 #include "split_mapf/core/validate.h"
 #include "split_mapf/core/wording.h"
+#include "split_mapf/pipeline/planner.h"
 #include "split_mapf/split/splitter_failure.h"
 
 namespace split_mapf {
@@ -40,13 +41,8 @@ PlanRun::PlanRun(const Instance& instance, CheckedRequest request, const SolverR
       traits_(solvers.traits()),
       last_resort_(lastResort(traits_, request_.asked.objective)),
       piece_solver_(request_, solvers, executor, solve_deadline_, log_) {
-  const PlanRequest& asked = request_.asked;
-  report_.solver = asked.solver;
-  report_.split = asked.split;
-  report_.objective = asked.objective;
-  report_.seed = asked.seed;
-  report_.threads = executor.threadsFor(asked.threads);
-  report_.robots = instance.robots();
+  report_ = reportOf(request_.asked, instance.robots());
+  report_.threads = executor.threadsFor(request_.asked.threads);
 }
 
 PlanReport PlanRun::run() {

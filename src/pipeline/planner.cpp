@@ -14,19 +14,24 @@ namespace {
 /// The answer where not even a run could be begun.
 PlanReport outOfMemory(const Instance& instance, const PlanRequest& request,
                        const Executor& executor) {
-  PlanReport report;
-  report.solver = request.solver;
-  report.split = request.split;
-  report.objective = request.objective;
-  report.seed = request.seed;
+  PlanReport report = reportOf(request, instance.robots());
   report.threads = executor.threadsFor(request.threads);
-  report.robots = instance.robots();
   report.termination = Termination::kMemoryLimit;
   report.message = "memory ran out before the first stage, or behind the last";
   return report;
 }
 
 }  // namespace
+
+PlanReport reportOf(const PlanRequest& request, std::uint32_t robots) {
+  PlanReport report;
+  report.solver = request.solver;
+  report.split = request.split;
+  report.objective = request.objective;
+  report.seed = request.seed;
+  report.robots = robots;
+  return report;
+}
 
 void Planner::requireValid(const PlanRequest& request) const {
   check(request, solvers_, splitters_);

@@ -51,13 +51,8 @@ std::unique_ptr<Executor> startExecutor(std::uint32_t threads) {
 /// The report of a call that ended outside the planner.
 PlanReport endedBefore(const PlanRequest& request, std::uint32_t robots, Termination how,
                        const std::string& message) {
-  PlanReport report;
-  report.solver = request.solver;
-  report.split = request.split;
-  report.objective = request.objective;
-  report.seed = request.seed;
+  PlanReport report = reportOf(request, robots);
   report.threads = request.threads;
-  report.robots = robots;
   report.termination = how;
   report.message = message;
   return report;

@@ -12,6 +12,9 @@
 
 namespace split_mapf {
 
+/// A report that says what was asked, and nothing of what came of it.
+PlanReport reportOf(const PlanRequest& request, std::uint32_t robots);
+
 /// Runs the whole way: distances, split, solve in parallel, stitch, validate, refine. The only
 /// place where the stages meet. Thread-safe: several calls may share one executor.
 class Planner {
