@@ -237,7 +237,8 @@ TEST(FleetRuns, HaveNoCollisionsAndNoDeadlocks) {
 
 TEST(FleetRuns, HaveNoCollisionsAndNoDeadlocksOnPlanningGraphs) {
   Count count;
-  // Open: of these 1800 runs one ends with a ring that is not planned away, whatever is tried.
+  // Open: in one of these 1800 runs a robot that cannot reach its goal is sent to the nearest free
+  // vertex, from which the others part it by a rotation only; a farther one would do.
   constexpr std::uint64_t kRingStays = 822;
   const auto all_wrong = [&](Drive& run) {
     run.is_stuck = run.seed == kRingStays;
