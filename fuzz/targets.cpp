@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "goal_target.h"
 #include "memory_file.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/instance.h"
@@ -22,8 +23,10 @@
 #include "split_mapf/io/problem_bytes.h"
 #include "split_mapf/io/task_file.h"
 #include "split_mapf/io/vda5050.h"
+#include "split_mapf/pipeline/piece_messages.h"
 #include "split_mapf/roadmap/obstacle_raster.h"
 #include "split_mapf/roadmap/roadmap.h"
+#include "split_mapf/solver/registry.h"
 #include "split_mapf/split/split_options.h"
 #include "split_mapf/split/split_spec.h"
 
@@ -137,14 +140,33 @@ bool readSplitBytes(const std::string& bytes) {
 }
 
 /// What is taken must come out as it went in.
+template <class Value>
+void requireSameAgain(const Value& value, Value (*read)(const std::string&)) {
+  const std::string bytes = toBytes(value);
+  if (toBytes(read(bytes)) != bytes) {
+    throw std::logic_error("what was read changes when it is written and read");
+  }
+}
+
 bool readProblemBytes(const std::string& bytes) {
-  return isTaken([&] {
-    const Problem problem = problemFromBytes(bytes);
-    const std::string again = toBytes(problem);
-    if (toBytes(problemFromBytes(again)) != again) {
-      throw std::logic_error("a problem changes when it is written and read");
-    }
+  return isTaken([&] { requireSameAgain(problemFromBytes(bytes), problemFromBytes); });
+}
+
+/// What a worker is asked, as far as its solver is made; what a client is answered, as far as the
+/// plan is validated.
+bool readPieceMessageBytes(const std::string& bytes) {
+  static const Instance instance(smallGrid(), {{0, 0}, {7, 7}}, {{7, 0}, {0, 7}});
+  const bool is_question = isTaken([&] {
+    const PieceQuestion question = questionFromBytes(bytes);
+    requireSameAgain(question, questionFromBytes);
+    builtinSolvers().create(question.solver, question.options);
   });
+  const bool is_answer = isTaken([&] {
+    const PieceAnswer answer = answerFromBytes(bytes);
+    requireSameAgain(answer, answerFromBytes);
+    if (answer.result.plan) validate(instance, *answer.result.plan);
+  });
+  return is_question || is_answer;
 }
 
 /// The first line has radius, clearance, cell size and resolution [m], and whether passages are
@@ -178,17 +200,15 @@ bool readRobotBytes(const std::string& bytes) {
 
 const std::map<std::string, Target>& targets() {
   static const std::map<std::string, Target> all = {
-      {"map", readMapBytes},
-      {"map_server", readMapServerBytes},
-      {"picture", readPictureBytes},
-      {"plan", readPlanBytes},
-      {"poses", readPoseBytes},
-      {"problem", readProblemBytes},
-      {"roadmap", buildRoadmapOfBytes},
-      {"scenario", readScenarioBytes},
-      {"split", readSplitBytes},
-      {"tasks", readTaskBytes},
-      {"vda5050", readRobotBytes},
+#ifdef SPLIT_MAPF_FUZZ_GOAL
+      {"goal", placeGoalOfBytes},
+#endif
+      {"map", readMapBytes},           {"map_server", readMapServerBytes},
+      {"picture", readPictureBytes},   {"piece_messages", readPieceMessageBytes},
+      {"plan", readPlanBytes},         {"poses", readPoseBytes},
+      {"problem", readProblemBytes},   {"roadmap", buildRoadmapOfBytes},
+      {"scenario", readScenarioBytes}, {"split", readSplitBytes},
+      {"tasks", readTaskBytes},        {"vda5050", readRobotBytes},
   };
   return all;
 }

@@ -43,6 +43,33 @@ std::string faultOfPair(const Path& a, const Path& b, std::size_t robot) {
   return "";
 }
 
+std::string summaryOf(const PlanReport& report) {
+  std::string text = toString(report.termination) + " in " + std::to_string(report.runtime_sec) +
+                     " s, makespan " + std::to_string(report.makespan) + ", sum of costs " +
+                     std::to_string(report.sum_of_costs) + " (" + report.message + ");";
+  for (const auto& [stage, seconds] : report.stages) {
+    text += " " + stage + " " + std::to_string(seconds);
+  }
+  for (const SubproblemReport& row : report.subproblems) {
+    text += "; " + row.solver + " " + row.status;
+  }
+  return text;
+}
+
+/// The first step of the first robot that moves otherwise; empty: none does.
+std::string firstOtherStep(const Plan& one, const Plan& other) {
+  if (one.paths.size() != other.paths.size()) return "not as many robots";
+  for (std::size_t i = 0; i < one.paths.size(); ++i) {
+    const Path& a = one.paths[i];
+    const Path& b = other.paths[i];
+    const auto [at, there] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+    if (at != a.end() || there != b.end()) {
+      return robotAt(i, static_cast<std::size_t>(at - a.begin())) + "moves otherwise";
+    }
+  }
+  return "";
+}
+
 std::size_t indexOf(Objective objective) {
   return static_cast<std::size_t>(std::find(kObjectives.begin(), kObjectives.end(), objective) -
                                   kObjectives.begin());
@@ -63,6 +90,13 @@ std::string faultOf(const Instance& instance, const Plan& plan) {
     }
   }
   return "";
+}
+
+std::string differenceOf(const PlanReport& one, const PlanReport& other) {
+  const bool are_plans = one.plan && other.plan;
+  const std::string step = are_plans ? firstOtherStep(*one.plan, *other.plan) : "";
+  if (one.termination == other.termination && step.empty()) return "";
+  return "  " + summaryOf(one) + "\n  " + summaryOf(other) + (step.empty() ? "" : "\n  " + step);
 }
 
 bool isUpToTheClock(const PlanReport& report) { return report.runtime_sec > kLimitSec / 20; }

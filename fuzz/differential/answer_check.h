@@ -19,7 +19,12 @@ std::string faultOf(const Instance& instance, const Plan& plan);
 constexpr double kLimitSec = 0.1;  ///< of each request
 
 /// Whether a faster machine may give another answer: some stages give up by shares of the limit.
+/// @pre runtime_sec is what has passed of the limit.
 bool isUpToTheClock(const PlanReport& report);
+
+/// How two answers to one request ended, stage by stage and piece by piece, and the first step in
+/// which their plans differ; empty where they are the same.
+std::string differenceOf(const PlanReport& one, const PlanReport& other);
 
 /// What is known of an instance: by the oracle, or, where it is too large for one, by the answers
 /// so far, which must not contradict each other.
