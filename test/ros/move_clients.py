@@ -48,15 +48,17 @@ class PlainClient:
     """Sends goals and gathers results as messages, without the state machines of actionlib, which
     are slow for thousands of goals in python. Several of them are as many clients."""
 
-    def __init__(self, name, action="fleet/move"):
+    def __init__(self, name, action="fleet/move", goal_type=MoveRobotsActionGoal,
+                 result_type=MoveRobotsActionResult):
         self.name = name
         self.lock = threading.Lock()
         self.sent = {}
         self.ends = {}
         self.count = 0
-        self.goals = rospy.Publisher(action + "/goal", MoveRobotsActionGoal, queue_size=20000)
+        self.goal_type = goal_type
+        self.goals = rospy.Publisher(action + "/goal", goal_type, queue_size=20000)
         self.cancels = rospy.Publisher(action + "/cancel", GoalID, queue_size=20000)
-        self.results = rospy.Subscriber(action + "/result", MoveRobotsActionResult, self.take,
+        self.results = rospy.Subscriber(action + "/result", result_type, self.take,
                                         queue_size=20000, tcp_nodelay=True)
 
     def is_connected(self):
@@ -64,7 +66,7 @@ class PlainClient:
                 and self.results.get_num_connections() > 0)
 
     def send(self, goal):
-        message = MoveRobotsActionGoal(goal=goal)
+        message = self.goal_type(goal=goal)
         message.header.stamp = message.goal_id.stamp = rospy.Time.now()
         self.count += 1
         message.goal_id.id = "%s-%d" % (self.name, self.count)
