@@ -352,6 +352,7 @@ FleetSnapshot FleetExecution::snapshot(double now) const {
     part.paused = record.paused;
     if (isHeld(robot)) part.held_at = sequences_[promised_[robot]];
     part.next_sequence = record.next_sequence;
+    part.visits.reserve(order.last(robot) - graph_.at(robot) + std::size_t{1});
     for (VisitId v = graph_.at(robot); v <= order.last(robot); ++v) {
       part.visits.push_back({sequences_[v], grid_->cellOf(order[v].vertex), order[v].step});
     }

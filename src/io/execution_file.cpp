@@ -1,6 +1,8 @@
 #include "split_mapf/io/execution_file.h"
 
+#include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -16,43 +18,109 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kFormat = "split_mapf execution 3";
+// What is set aside for them; more is no harm.
+constexpr std::size_t kBytesPerVisit = 12;
+constexpr std::size_t kBytesPerRobot = 200;
+constexpr std::size_t kMostDigits = 10;  // of a number of 32 bits
+constexpr const char* kFormat = "split_mapf execution 4";
 
-json toJson(const FleetSnapshot::Robot& robot) {
-  json sequences = json::array();
-  json cells = json::array();
-  json steps = json::array();
+void append(std::string& text, std::uint32_t number) {
+  std::array<char, kMostDigits> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number);
+  text.append(digits.data(), end.ptr);
+}
+
+void append(std::string& text, const char* key, std::uint32_t number) {
+  text += key;
+  append(text, number);
+}
+
+/// A list of one number a visit.
+template <typename NumberOf>
+void append(std::string& text, const char* key, const FleetSnapshot::Robot& robot,
+            NumberOf number_of) {
+  text += key;
+  const std::size_t begin = text.size();
+  // Each with a comma.
+  text.resize(begin + (kMostDigits + 1) * robot.visits.size());
+  char* end = text.data() + begin;
   for (const FleetSnapshot::Visit& visit : robot.visits) {
-    sequences.push_back(visit.sequence);
-    cells.push_back({visit.cell.x, visit.cell.y});
-    steps.push_back(visit.step);
+    end = std::to_chars(end, end + kMostDigits, number_of(visit)).ptr;
+    *end++ = ',';
   }
-  json all = {{"id", robot.id},
-              {"goal", {robot.goal.x, robot.goal.y}},
-              {"planned", robot.planned_sec},
-              {"paused", robot.paused},
-              {"next_sequence", robot.next_sequence},
-              {"sequences", std::move(sequences)},
-              {"cells", std::move(cells)},
-              {"steps", std::move(steps)}};
-  if (robot.held_at) all["held_at"] = *robot.held_at;
-  return all;
+  text.resize(static_cast<std::size_t>(end - text.data()));
+  if (!robot.visits.empty()) text.pop_back();
+  text += ']';
+}
+
+/// Numbers of visits that follow each other as the first one and how many.
+void appendSequences(std::string& text, const FleetSnapshot::Robot& robot) {
+  text += ",\"sequences\":[";
+  std::uint32_t count = 0;
+  for (std::size_t i = 0; i < robot.visits.size(); ++i) {
+    const std::uint32_t sequence = robot.visits[i].sequence;
+    if (count == 0) append(text, "[", sequence);
+    ++count;
+    const bool goes_on =
+        i + 1 < robot.visits.size() && robot.visits[i + 1].sequence == sequence + 1;
+    if (goes_on) continue;
+    append(text, ",", count);
+    text += "],";
+    count = 0;
+  }
+  if (!robot.visits.empty()) text.pop_back();
+  text += ']';
+}
+
+/// By hand: a value of the JSON library for each number takes ten times as long, and robots'
+/// reports wait meanwhile.
+void append(std::string& text, const FleetSnapshot::Robot& robot, std::uint32_t width) {
+  const auto index_of = [width](Cell cell) {
+    return static_cast<std::uint32_t>(cell.y) * width + static_cast<std::uint32_t>(cell.x);
+  };
+  text += "{\"id\":" + json(robot.id).dump();
+  append(text, ",\"goal\":", index_of(robot.goal));
+  text += ",\"planned\":" + json(robot.planned_sec).dump();
+  text += robot.paused ? ",\"paused\":true" : ",\"paused\":false";
+  append(text, ",\"next_sequence\":", robot.next_sequence);
+  if (robot.held_at) append(text, ",\"held_at\":", *robot.held_at);
+  appendSequences(text, robot);
+  append(text, ",\"cells\":[", robot,
+         [&](const FleetSnapshot::Visit& visit) { return index_of(visit.cell); });
+  append(text, ",\"steps\":[", robot, [](const FleetSnapshot::Visit& visit) { return visit.step; });
+  text += '}';
 }
 
 Cell cellOf(const json& pair) { return {pair.at(0).get<int>(), pair.at(1).get<int>()}; }
 
-FleetSnapshot::Robot robotOf(const json& from) {
+/// @throws InputError for a number that is no index of a grid of that width.
+Cell cellOf(std::uint32_t index, std::uint32_t width) {
+  constexpr std::uint32_t kMostRows = 1U << 30U;
+  if (width == 0 || index / width >= kMostRows || width >= kMostRows) {
+    throw InputError("it has a cell " + std::to_string(index) + " that is none");
+  }
+  return {static_cast<std::int32_t>(index % width), static_cast<std::int32_t>(index / width)};
+}
+
+FleetSnapshot::Robot robotOf(const json& from, std::uint32_t width) {
   FleetSnapshot::Robot robot;
   robot.id = from.at("id").get<std::string>();
-  robot.goal = cellOf(from.at("goal"));
+  robot.goal = cellOf(from.at("goal").get<std::uint32_t>(), width);
   robot.planned_sec = from.at("planned").get<double>();
   robot.paused = from.at("paused").get<bool>();
   robot.next_sequence = from.at("next_sequence").get<std::uint32_t>();
   if (from.contains("held_at")) robot.held_at = from.at("held_at").get<std::uint32_t>();
   const json& cells = from.at("cells");
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    robot.visits.push_back({from.at("sequences").at(i).get<std::uint32_t>(), cellOf(cells[i]),
-                            from.at("steps").at(i).get<std::uint32_t>()});
+  const json& steps = from.at("steps");
+  for (const json& run : from.at("sequences")) {
+    const auto first = run.at(0).get<std::uint32_t>();
+    const auto count = run.at(1).get<std::uint32_t>();
+    // What a run says is not believed before the cells are there.
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::size_t index = robot.visits.size();
+      robot.visits.push_back({first + i, cellOf(cells.at(index).get<std::uint32_t>(), width),
+                              steps.at(index).get<std::uint32_t>()});
+    }
   }
   return robot;
 }
@@ -113,20 +181,8 @@ FleetSnapshot::Part partOf(const json& from) {
   throw InputError("the execution file '" + path + "' " + what);
 }
 
-/// JSON has no place for names that are no UTF-8.
-std::string textOf(const std::string& path, const json& all) {
-  try {
-    return all.dump();
-  } catch (const json::exception& error) {
-    fail(path, std::string("cannot be written: ") + error.what());
-  }
-}
-
-}  // namespace
-
-void writeExecution(const std::string& path, const FleetSnapshot& snapshot) {
-  json robots = json::array();
-  for (const FleetSnapshot::Robot& robot : snapshot.robots) robots.push_back(toJson(robot));
+/// All but the robots.
+json toJson(const FleetSnapshot& snapshot) {
   json blocked = json::array();
   for (const Cell cell : snapshot.blocked) blocked.push_back({cell.x, cell.y});
   json all = {{"format", kFormat},
@@ -139,14 +195,44 @@ void writeExecution(const std::string& path, const FleetSnapshot& snapshot) {
               {"paused", snapshot.all_paused},
               {"cancelled", snapshot.cancelled},
               {"rolling", snapshot.rolling},
-              {"blocked", std::move(blocked)},
-              {"robots", std::move(robots)}};
+              {"blocked", std::move(blocked)}};
   if (snapshot.part) all["part"] = toJson(*snapshot.part);
-  const std::string text = textOf(path, all);
+  return all;
+}
+
+std::string textOf(const FleetSnapshot& snapshot) {
+  std::string text = toJson(snapshot).dump();
+  text.back() = ',';
+  std::size_t visits = 0;
+  for (const FleetSnapshot::Robot& robot : snapshot.robots) visits += robot.visits.size();
+  text.reserve(text.size() + kBytesPerVisit * visits + kBytesPerRobot * snapshot.robots.size());
+  text += "\"robots\":[";
+  for (const FleetSnapshot::Robot& robot : snapshot.robots) {
+    append(text, robot, snapshot.width);
+    text += ',';
+  }
+  if (!snapshot.robots.empty()) text.pop_back();
+  text += "]}\n";
+  return text;
+}
+
+/// JSON has no place for names that are no UTF-8.
+std::string textFor(const std::string& path, const FleetSnapshot& snapshot) {
+  try {
+    return textOf(snapshot);
+  } catch (const json::exception& error) {
+    fail(path, std::string("cannot be written: ") + error.what());
+  }
+}
+
+}  // namespace
+
+void writeExecution(const std::string& path, const FleetSnapshot& snapshot) {
+  const std::string text = textFor(path, snapshot);
   const std::string fresh = path + ".new";
   {
     std::ofstream file(fresh, std::ios::binary | std::ios::trunc);
-    file << text << '\n';
+    file << text;
     file.flush();
     if (!file) fail(fresh, std::string("cannot be written: ") + std::strerror(errno));
   }
@@ -175,7 +261,9 @@ std::optional<FleetSnapshot> readExecution(const std::string& path) {
     snapshot.cancelled = all.at("cancelled").get<bool>();
     snapshot.rolling = all.value("rolling", false);
     for (const json& cell : all.at("blocked")) snapshot.blocked.push_back(cellOf(cell));
-    for (const json& robot : all.at("robots")) snapshot.robots.push_back(robotOf(robot));
+    for (const json& robot : all.at("robots")) {
+      snapshot.robots.push_back(robotOf(robot, snapshot.width));
+    }
     if (all.contains("part")) snapshot.part = partOf(all.at("part"));
     return snapshot;
   } catch (const json::exception& error) {

@@ -113,6 +113,42 @@ TEST_F(ExecutionFile, RefusesToWriteAnIdThatIsNoUtf8) {
   EXPECT_THROW(writeExecution(path, snapshot), InputError);
   EXPECT_FALSE(readExecution(path)) << "nothing is left behind";
 }
+TEST_F(ExecutionFile, DoesNotBelieveHowManyVisitsAFileSaysItHas) {
+  const std::string path = pathOf("fleet.json");
+  FleetSnapshot snapshot;
+  snapshot.width = 4;
+  snapshot.height = 2;
+  snapshot.robots.push_back({"r0", {2, 0}, 3.5, false, 9, {{4, {0, 0}, 0}, {5, {1, 1}, 2}}});
+  writeExecution(path, snapshot);
+  const std::string text = contentOf(path);
+  const auto with = [&](const std::string& part, const std::string& other) {
+    std::string changed = text;
+    EXPECT_NE(changed.find(part), std::string::npos) << text;
+    return file("changed.json", changed.replace(changed.find(part), part.size(), other));
+  };
+  EXPECT_EQ(readExecution(with("[[4,2]]", "[[4,1],[5,1]]"))->robots[0].visits[1].cell,
+            (Cell{1, 1}));
+  EXPECT_THROW(readExecution(with("[[4,2]]", "[[4,4000000000]]")), InputError);
+  EXPECT_THROW(readExecution(with("\"size\":[4,2]", "\"size\":[0,2]")), InputError);
+  EXPECT_THROW(readExecution(with("\"cells\":[0,5]", "\"cells\":[0,\"5\"]")), InputError);
+}
+
+TEST_F(ExecutionFile, NamesAFileThatIsCutAnywhere) {
+  const std::string path = pathOf("fleet.json");
+  FleetSnapshot snapshot;
+  snapshot.width = 4;
+  snapshot.height = 2;
+  snapshot.part = FleetSnapshot::Part();
+  snapshot.robots.push_back({"r0", {2, 0}, 3.5, true, 9, {{4, {0, 0}, 0}, {7, {1, 0}, 2}}, 7});
+  snapshot.robots.push_back({"r1", {2, 1}, 0, false, 1, {{0, {2, 1}, 0}}});
+  writeExecution(path, snapshot);
+  const std::string text = contentOf(path);
+  // The last byte ends the line.
+  for (std::size_t size = 0; size + 1 < text.size(); size += 7) {
+    EXPECT_THROW(readExecution(file("cut.json", text.substr(0, size))), InputError) << size;
+  }
+}
+
 
 TEST_F(ExecutionFile, DoesNotTakeAFileThatItCannotOpenForNone) {
   EXPECT_THROW(readExecution(file("plain", "") + "/fleet.json"), InputError);
