@@ -11,9 +11,9 @@ import rosunit
 from actionlib_msgs.msg import GoalStatus
 
 from fleet_case import FleetCase
-from move_clients import PlainClient, connect, distance, free_cells, goal_of, task
+from move_clients import PlainClient, connect, distance, free_cells, goal_of, pose_at, task
 from ros_processes import SentGoal, wait_until
-from split_mapf.msg import PlanOutcome, RobotState, RobotTask
+from split_mapf.msg import PlanOutcome, RobotProgress, RobotState, RobotTask
 from split_mapf.srv import AddRobot, BlockCells, RemoveRobot
 
 PATIENCE = 60
@@ -156,6 +156,29 @@ class Move(FleetCase):
             self.assertTrue(block([cell], False).ok)
             state, result = self.end_of(self.send(task("r1", x, y)))
             self.assertEqual(state, "SUCCEEDED", result.message)
+
+    def test_sends_robots_beside_somebody_who_stands_on_two_cells(self):
+        self.start()
+        self.assertEqual(self.end_of(self.send(task("r1", *self.farther("r1", 3))))[0], "SUCCEEDED")
+        x, y = next((x, y) for x, y in self.cells if (x + 1, y) in self.cells and all(
+            distance(self.place_of(path.robot_id), x + 0.5, y) > 2 for path in self.plan.paths))
+        topic = rospy.Publisher("progress", RobotProgress, queue_size=10)
+        self.addCleanup(topic.unregister)
+        # It is not of the fleet.
+        stranger = RobotProgress(robot_id="stranger", status=RobotProgress.FAULT,
+                                 pose=pose_at(x + 0.45, y))
+        timer = rospy.Timer(rospy.Duration(0.05), lambda _event: topic.publish(stranger))
+        self.addCleanup(timer.shutdown)
+        self.assertTrue(wait_until(lambda: self.place_of("stranger")))
+        outcomes = []
+
+        def is_closed(cell):
+            outcomes.append(self.end_of(self.send(task("r1", *cell)))[1].outcome)
+            return outcomes[-1] == PlanOutcome.BLOCKED_CELL
+
+        # From the tick on in which the node has heard of it.
+        self.assertTrue(wait_until(lambda: is_closed((x, y))), outcomes)
+        self.assertTrue(is_closed((x + 1, y)), outcomes)
 
     def test_ends_each_goal_of_many_clients_once(self):
         fleet = self.start("_max_tasks:=400")

@@ -11,7 +11,6 @@
 #include "ros/convert/fleet_messages.h"
 #include "ros/convert/text_limits.h"
 #include "ros/fleet/fleet_server.h"
-#include "ros/fleet/near_cells.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
 #include "split_mapf/roadmap/map_frame.h"
@@ -22,7 +21,6 @@ namespace split_mapf {
 namespace {
 
 constexpr double kStatePeriodSec = 0.5;
-constexpr std::size_t kMostNear = 100000;  // cells of which it is known what is near
 
 bool isFinite(const geometry_msgs::Point& point) {
   return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
@@ -45,7 +43,10 @@ void FleetServer::takeProgress(const RobotProgress& message) {
   const std::optional<geometry_msgs::Point> at = poseOnMap(message.pose);
   const std::optional<Cell> place = cellAt(at);
   if (!message.pose.header.frame_id.empty()) known.pose = message.pose;
-  if (place) known.place = place;
+  if (place) {
+    known.place = place;
+    known.point = at;
+  }
   if (!fleet_) return;
   if (index_.empty()) reindex();
   const auto robot = index_.find(message.robot_id);
@@ -79,45 +80,10 @@ void FleetServer::reindex() {
   }
 }
 
-/// On a planning graph, whose vertices lie apart, all to which an edge leads that comes near. They
-/// are kept, as most cells are asked for again at the next tick.
-void FleetServer::markNear(std::vector<bool>& cells, Cell cell, double distance_m) {
-  const auto& moves = fleet_->graph().closeMoves();
-  if (!moves) {
-    const Vertex vertex = grid_->grid->vertexAt(cell);
-    if (vertex != kNoVertex) cells[vertex] = true;
-    return;
-  }
-  if (near_of_ != moves || near_.size() >= kMostNear) near_.clear();
-  near_of_ = moves;
-  const auto [near, is_new] = near_.try_emplace({cell.x, cell.y, distance_m});
-  if (is_new) {
-    const double resolution_m = grid_->geometry.info().resolution;
-    const PlanePoint centre{(cell.x + 0.5) * resolution_m, (cell.y + 0.5) * resolution_m};
-    // Anywhere in the cell.
-    const double far = distance_m + resolution_m * std::sqrt(0.5);
-    near->second = moves->nearTo(centre, centre, far);
-  }
-  for (const Vertex v : near->second) cells[v] = true;
-}
-
-/// On a planning graph: to which vertices no robot may be sent as cells are blocked by a service.
-/// It is looked up again when these, or the graph, are others.
-const std::vector<bool>& FleetServer::nearBlocked(double reach_m) {
-  const auto& moves = fleet_->graph().closeMoves();
-  NearBlocked& near = near_blocked_;
-  const bool is_known = near.moves == moves && near.reach_m == reach_m &&
-                        near.cells.size() == blocked_.size() &&
-                        std::equal(blocked_.begin(), blocked_.end(), near.cells.begin());
-  if (is_known) return near.vertices;
-  near.moves = moves;
-  near.reach_m = reach_m;
-  near.cells.assign(blocked_.begin(), blocked_.end());
-  std::vector<Cell> cells;
-  for (const std::uint32_t cell : blocked_) cells.push_back(grid_->geometry.cellOf(cell));
-  near.vertices =
-      verticesNear(*moves, grid_->grid->size(), cells, grid_->geometry.info().resolution, reach_m);
-  return near.vertices;
+/// By its last pose, on a map that is new.
+void FleetServer::locate(Known& known) const {
+  known.point = poseOnMap(known.pose);
+  known.place = cellAt(known.point);
 }
 
 /// The cell in which a pose lies; nothing where there is none, or no map yet.
@@ -151,32 +117,6 @@ std::optional<geometry_msgs::Point> FleetServer::poseOnMap(
     ROS_WARN_THROTTLE(5, "a robot's pose is left out: %s", failure.what());
     return std::nullopt;
   }
-}
-
-/// Cells that were blocked by a service, and those where robots stand that are not of the fleet.
-void FleetServer::closeCells() {
-  std::vector<bool> blocked(grid_->grid->size(), false);
-  std::vector<bool> strangers = discs_ ? left_out_cells_ : blocked;
-  const DiscGround* const rolls_on = ground_ ? ground_->discs.get() : nullptr;
-  const double reach_m = discs_ ? discs_->reach() : rolls_on != nullptr ? rolls_on->reach() : 0;
-  const double distance_m = discs_                ? discs_->distance()
-                            : rolls_on != nullptr ? rolls_on->distance()
-                                                  : 0;
-  if (fleet_->graph().closeMoves()) {
-    blocked = nearBlocked(reach_m);
-  } else {
-    for (const std::uint32_t cell : blocked_) {
-      markNear(blocked, grid_->geometry.cellOf(cell), reach_m);
-    }
-  }
-  for (const auto& [id, known] : known_) {
-    if (!known.place || index_.count(id) > 0) continue;
-    // Those that join stand on vertices, and are far from all that is around.
-    if (rolls_on != nullptr && fleet_->isJoining(id)) continue;
-    markNear(strangers, *known.place, distance_m);
-  }
-  fleet_->setBlocked(blocked);
-  fleet_->setStrangers(strangers);
 }
 
 void FleetServer::tick() {

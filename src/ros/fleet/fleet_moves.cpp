@@ -120,7 +120,7 @@ void FleetServer::roll(double now) {
   kept_version_ = 0;
   index_.clear();
   for (auto& [id, known] : known_) {
-    if (known.hasPose()) known.place = placeOf(known.pose);
+    if (known.hasPose()) locate(known);
   }
   startTasks();
   joinReporting(now);

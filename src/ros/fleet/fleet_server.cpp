@@ -254,7 +254,7 @@ void FleetServer::changeGrid(const PlanningGrid& grid) {
   const bool same_frame = before && before->geometry.frame() == grid.geometry.frame();
   for (auto& [id, known] : known_) {
     if (known.hasPose()) {
-      known.place = placeOf(known.pose);
+      locate(known);
     } else if (known.place && same_frame) {
       known.place = grid.geometry.cellAt(before->geometry.centreOf(*known.place));
     } else {

@@ -99,6 +99,8 @@ class FleetServer {
     double heard = 0;
     geometry_msgs::PoseStamped pose;  ///< the last one; an empty frame: it gave none
     std::optional<Cell> place;        ///< on the present grid
+    /// On the map, as its pose tells; where it has none the place is all that is known.
+    std::optional<geometry_msgs::Point> point;
     std::uint8_t status = RobotProgress::OK;
 
     bool hasPose() const { return !pose.header.frame_id.empty(); }
@@ -158,6 +160,7 @@ class FleetServer {
 
   // Robots.
   void takeProgress(const RobotProgress& message);
+  void locate(Known& known) const;
   std::optional<Cell> placeOf(const geometry_msgs::PoseStamped& pose) const;
   std::optional<Cell> cellAt(const std::optional<geometry_msgs::Point>& point) const;
   std::optional<PlanePoint> rasterPoint(const std::optional<geometry_msgs::Point>& point) const;
@@ -165,6 +168,7 @@ class FleetServer {
   void countRefused(const RobotProgress& message, const std::string& why);
   void closeCells();
   void markNear(std::vector<bool>& cells, Cell cell, double distance_m);
+  void markUnder(std::vector<bool>& cells, const geometry_msgs::Point& point);
   const std::vector<bool>& nearBlocked(double reach_m);
   void reindex();
 
