@@ -145,13 +145,19 @@ json toJson(const FleetSnapshot::Part& part) {
   for (const FleetSnapshot::Fault& fault : part.faults) {
     faults.push_back({{"id", fault.id}, {"code", fault.code}, {"message", fault.message}});
   }
+  json joined = json::array();
+  for (const FleetSnapshot::Joined& robot : part.joined) {
+    joined.push_back(
+        {{"id", robot.id}, {"place", {robot.place.x, robot.place.y}}, {"waits", robot.waits}});
+  }
   return {{"plan", boost::algorithm::hex(part.plan)},
           {"number", part.number},
           {"elapsed", part.elapsed_sec},
           {"planned", part.planned_sec},
           {"ids", part.ids},
           {"left_behind", std::move(left_behind)},
-          {"faults", std::move(faults)}};
+          {"faults", std::move(faults)},
+          {"joined", std::move(joined)}};
 }
 
 FleetSnapshot::Part partOf(const json& from) {
@@ -173,6 +179,12 @@ FleetSnapshot::Part partOf(const json& from) {
   for (const json& fault : from.at("faults")) {
     part.faults.push_back({fault.at("id").get<std::string>(), fault.at("code").get<std::int32_t>(),
                            fault.at("message").get<std::string>()});
+  }
+  for (const json& robot : from.at("joined")) {
+    const json& place = robot.at("place");
+    part.joined.push_back({robot.at("id").get<std::string>(),
+                           {place.at(0).get<double>(), place.at(1).get<double>()},
+                           robot.at("waits").get<bool>()});
   }
   return part;
 }

@@ -59,6 +59,14 @@ bool DiscGround::isFree(MapPoint place) const {
              {static_cast<std::int32_t>(column), static_cast<std::int32_t>(row)})] == 0;
 }
 
+bool DiscGround::fits(MapPoint place) const {
+  if (!isFree(place)) return false;
+  const double side_m = raster_->resolution_m;
+  const double need = std::max(kLeastNeed, reach() / side_m);
+  const Place at{place.x / side_m - 0.5, place.y / side_m - 0.5};
+  return leastDistance(*raster_, at, at, need) >= need - kTouchM / side_m;
+}
+
 std::optional<Vertex> DiscGround::nearest(MapPoint place, double most_m) const {
   if (!isFree(place)) return std::nullopt;
   const double side_m = raster_->resolution_m;

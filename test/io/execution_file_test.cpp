@@ -67,6 +67,7 @@ TEST_F(ExecutionFile, KeepsThePartOfAPlanOfRobotsThatHaveSize) {
   part.ids = {"a", "b"};
   part.left_behind = {{"c", {{0.25, -1}, {3, 4}}, true}};
   part.faults = {{"c", 31, "stands"}};
+  part.joined = {{"d", {0.75, 2}, false}, {"e", {1, 0.1}, true}};
   snapshot.part = part;
   writeExecution(path, snapshot);
   const auto read = readExecution(path);
@@ -85,6 +86,12 @@ TEST_F(ExecutionFile, KeepsThePartOfAPlanOfRobotsThatHaveSize) {
   ASSERT_EQ(read->part->faults.size(), 1U);
   EXPECT_EQ(read->part->faults[0].code, 31);
   EXPECT_EQ(read->part->faults[0].message, "stands");
+  ASSERT_EQ(read->part->joined.size(), 2U);
+  EXPECT_EQ(read->part->joined[0].id, "d");
+  EXPECT_EQ(read->part->joined[0].place.x, 0.75);
+  EXPECT_FALSE(read->part->joined[0].waits);
+  EXPECT_EQ(read->part->joined[1].place.y, 0.1);
+  EXPECT_TRUE(read->part->joined[1].waits);
 
   // The same file, its plan cut in the middle of a byte.
   std::string text = contentOf(path);
@@ -106,13 +113,6 @@ TEST_F(ExecutionFile, NamesWhatIsWrong) {
   EXPECT_THROW(writeExecution("/nowhere/fleet.json", {}), InputError);
 }
 
-TEST_F(ExecutionFile, RefusesToWriteAnIdThatIsNoUtf8) {
-  const std::string path = pathOf("fleet.json");
-  FleetSnapshot snapshot;
-  snapshot.robots.push_back({"\xff", {0, 0}, 1, false, 1, {{0, {0, 0}, 0}}});
-  EXPECT_THROW(writeExecution(path, snapshot), InputError);
-  EXPECT_FALSE(readExecution(path)) << "nothing is left behind";
-}
 TEST_F(ExecutionFile, DoesNotBelieveHowManyVisitsAFileSaysItHas) {
   const std::string path = pathOf("fleet.json");
   FleetSnapshot snapshot;
@@ -149,6 +149,13 @@ TEST_F(ExecutionFile, NamesAFileThatIsCutAnywhere) {
   }
 }
 
+TEST_F(ExecutionFile, RefusesToWriteAnIdThatIsNoUtf8) {
+  const std::string path = pathOf("fleet.json");
+  FleetSnapshot snapshot;
+  snapshot.robots.push_back({"\xff", {0, 0}, 1, false, 1, {{0, {0, 0}, 0}}});
+  EXPECT_THROW(writeExecution(path, snapshot), InputError);
+  EXPECT_FALSE(readExecution(path)) << "nothing is left behind";
+}
 
 TEST_F(ExecutionFile, DoesNotTakeAFileThatItCannotOpenForNone) {
   EXPECT_THROW(readExecution(file("plain", "") + "/fleet.json"), InputError);

@@ -73,6 +73,15 @@ TEST(DiscGround, HasNoVertexForPlacesThatAreNone) {
   EXPECT_TRUE(ground.isFree({0.001, 3.999}));
 }
 
+TEST(DiscGround, KnowsWhereARobotFits) {
+  const DiscGround ground = groundOf(0.3);
+  EXPECT_TRUE(ground.fits({3.7, 2}));
+  EXPECT_FALSE(ground.fits({3.71, 2})) << "the wall";
+  EXPECT_FALSE(ground.fits({2, 0.29})) << "the edge of the map";
+  EXPECT_FALSE(ground.fits({4.05, 2}));
+  EXPECT_FALSE(ground.fits({-5, std::numeric_limits<double>::quiet_NaN()}));
+}
+
 TEST(DiscGround, KnowsWhatRobotsKeep) {
   RoadmapOptions options;
   options.robot_radius_m = 0.3;

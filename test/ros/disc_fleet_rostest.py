@@ -16,9 +16,9 @@ from nav_msgs.msg import OccupancyGrid
 from fleet_case import FleetCase
 from move_clients import connect, goal_of, task
 from ros_processes import PATIENCE, SentGoal, action_client, start_program, wait_until
-from split_mapf.msg import (MultiRobotPlan, PlanOutcome, PlanPathsGoal, RobotProgress,
+from split_mapf.msg import (MultiRobotPlan, PlanOutcome, PlanPathsGoal, RobotPath, RobotProgress,
                             RobotState, RobotTask)
-from split_mapf.srv import BlockCells, PauseRobots
+from split_mapf.srv import AddRobot, BlockCells, PauseRobots
 
 RADIUS = 0.3
 SPEED = 5.0
@@ -26,6 +26,8 @@ CELL = 0.1
 # Two rooms, robots of the one go to the other through two doors.
 ROOMS = (121, 60)
 DOORS = (range(8, 18), range(40, 50))
+# Nobody of the plan goes there.
+MIDDLE = (3.63, 2.94)
 
 
 def building():
@@ -187,19 +189,79 @@ class DiscFleet(FleetCase):
         self.assertTrue(wait_until(lambda: pause([], True).ok, PATIENCE), fleet.output())
         self.assertTrue(wait_until(lambda: len(self.plan_ids()) == 1, PATIENCE), fleet.output())
         self.assertTrue(wait_until(lambda: os.path.exists(self.file), PATIENCE))
+        # Another robot is to join when all are on the graph.
+        self.appear("late", *self.free_vertex())
+        self.assertTrue(wait_until(lambda: self.add("late", *MIDDLE).ok, PATIENCE),
+                        fleet.output())
+        self.assertIn("already", self.add("late", *MIDDLE).message)
         fleet = self.kill_and_start_again(fleet)
         self.assertTrue(wait_until(lambda: pause([], False).ok, PATIENCE), fleet.output())
         self.assertTrue(wait_until(lambda: len(self.plan_ids()) == 2, PATIENCE), fleet.output())
         self.assertTrue(wait_until(lambda: self.count(RobotState.MOVING) > 2, PATIENCE))
         fleet = self.kill_and_start_again(fleet)
         # Who asks for the same again has the execution's end.
-        goal = self.send()
-        self.assertTrue(goal.wait_for_end(PATIENCE), fleet.output())
-        self.assertEqual(goal.result().outcome, PlanOutcome.SUCCEEDED, goal.result().message)
+        self.assert_all_arrive_with(self.send(), "late", *MIDDLE)
         self.assertEqual(len(self.plan_ids()), 3)
+
+    def appear(self, robot_id, x, y):
+        """A robot without hardware, beside those of the plan."""
+        path = RobotPath(robot_id=robot_id, cells=[0])
+        path.start.position.x, path.start.position.y = x, y
+        self.plan_topic.publish(MultiRobotPlan(grid=self.plan.grid, header=self.plan.header,
+                                               robot_radius=RADIUS, paths=[path],
+                                               longest_step=self.plan.longest_step))
+        self.addCleanup(self.plan_topic.publish, self.plan)
+        self.assertTrue(wait_until(lambda: self.place_of(robot_id) is not None, PATIENCE))
+
+    def free_vertex(self):
+        """Where nobody stands or begins, far from all goals."""
+        taken = [self.place_of(path.robot_id) for path in self.plan.paths]
+        taken += [pose.position for path in self.plan.paths for pose in (path.start, path.goal)]
+        for cell in sorted({cell for path in self.plan.paths for cell in path.cells}):
+            x, y = (cell % ROOMS[0] + 0.5) * CELL, (cell // ROOMS[0] + 0.5) * CELL
+            if min(math.hypot(at.x - x, at.y - y) for at in taken) > 4 * RADIUS:
+                return x, y
+        raise RuntimeError("all vertices are taken")
+
+    @staticmethod
+    def add(robot_id, x, y, radius=0.0):
+        task_of_robot = task(robot_id, x, y)
+        task_of_robot.radius = radius
+        return rospy.ServiceProxy("fleet/add_robot", AddRobot)(task_of_robot)
+
+    def assert_all_arrive_with(self, goal, robot_id, x, y):
+        self.assertTrue(goal.wait_for_end(PATIENCE))
+        self.assertEqual(goal.result().outcome, PlanOutcome.SUCCEEDED, goal.result().message)
+        self.assertEqual(self.count(RobotState.ARRIVED), self.ROBOTS + 1)
+        at = self.place_of(robot_id)
+        self.assertLess(math.hypot(at.x - x, at.y - y), 1e-3)
         for path in self.plan.paths:
             self.assert_at_goal(path)
         self.assert_kept_apart()
+
+    def test_a_robot_joins_the_plan_while_others_drive(self):
+        fleet = self.start_fleet()
+        self.start_robots(speed=SPEED)
+        goal = self.send()
+        pause = rospy.ServiceProxy("fleet/pause", PauseRobots)
+        self.assertTrue(wait_until(lambda: len(self.plan_ids()) == 2, PATIENCE), fleet.output())
+        self.assertTrue(pause([], True).ok)
+        self.assertTrue(wait_until(lambda: self.count(RobotState.MOVING) == 0, PATIENCE))
+        x, y = self.free_vertex()
+        self.appear("late", x, y)
+        first = self.plan.paths[0].goal.position
+        for answer, reason in ((self.add("late", first.x, first.y), self.plan.paths[0].robot_id),
+                               (self.add("late", *MIDDLE, radius=2 * RADIUS), "radius"),
+                               (self.add("late", *MIDDLE, radius=float("nan")), "radius"),
+                               (self.add("late", MIDDLE[0], 0.1), "does not fit"),
+                               (self.add(self.plan.paths[0].robot_id, *MIDDLE), "already"),
+                               (self.add("nobody", *MIDDLE), "does not report")):
+            self.assertFalse(answer.ok)
+            self.assertIn(reason, answer.message)
+        self.assertTrue(self.add("late", *MIDDLE).ok)
+        self.assertIn("already", self.add("late", *MIDDLE).message)
+        self.assertTrue(pause([], False).ok)
+        self.assert_all_arrive_with(goal, "late", *MIDDLE)
 
     def stand_on_vertices(self):
         """Robots appear where their paths on the graph begin."""

@@ -40,6 +40,12 @@ struct FleetSnapshot {
     std::int32_t code = 0;
     std::string message;
   };
+  /// A robot that was added to a plan of robots that have size.
+  struct Joined {
+    std::string id;
+    PlanePoint place;    ///< its goal [m]
+    bool waits = false;  ///< it is to join, and is not among the robots yet
+  };
   /// Of a plan of robots that have size, which is executed in parts: what the ground of the present
   /// part is built from. What else is kept is of that part.
   struct Part {
@@ -50,6 +56,7 @@ struct FleetSnapshot {
     std::vector<std::string> ids;  ///< of the robots that it began with
     std::vector<LeftBehind> left_behind;
     std::vector<Fault> faults;
+    std::vector<Joined> joined = {};
   };
   std::string plan_id;
   std::uint32_t width = 0;  ///< of the grid [cells]

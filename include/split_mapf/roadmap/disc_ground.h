@@ -43,6 +43,8 @@ class DiscGround {
 
   /// Whether a place of the raster lies on the map, and on no obstacle.
   bool isFree(MapPoint place) const;
+  /// Whether a robot that stands on such a place keeps reach() from all obstacles.
+  bool fits(MapPoint place) const;
   /// The nearest vertex within `most_m` of a place, by a straight way that comes no nearer to
   /// obstacles than reach(), or than the place is already; of vertices that are as near the first.
   /// Nothing where there is none, or the place is not free. Cost: what lies around it.

@@ -10,13 +10,14 @@
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/wording.h"
 #include "split_mapf/roadmap/execution_moves.h"
-#include "split_mapf/roadmap/roadmap.h"
 
 namespace split_mapf {
 namespace {
 
 // What is as near to its vertex needs no leg.
 constexpr double kSamePlaceM = 2e-6;
+// The longest leg, as snapDistanceOf() has it [spacings].
+constexpr double kMostSnap = 10;
 
 std::string quoted(const std::string& id) { return "robot " + quote(id); }
 
@@ -30,15 +31,17 @@ DrivenLeg legOf(MapPoint from, MapPoint to, double radius_m, std::uint32_t steps
 
 DiscParts::DiscParts(const MultiRobotPlan& plan, const nav_msgs::OccupancyGrid& map,
                      const GoalOptions& options)
-    : geometry_(map.info, map.header.frame_id), clearance_m_(plan.clearance) {
-  const ObstacleRaster raster = makeRaster(map, options.occupancy, options.ignore_specks);
-  requireValid(plan, raster);
+    : geometry_(map.info, map.header.frame_id),
+      radius_m_(plan.robot_radius),
+      clearance_m_(plan.clearance) {
+  auto raster = std::make_shared<const ObstacleRaster>(
+      makeRaster(map, options.occupancy, options.ignore_specks));
+  requireValid(plan, *raster);
   RoadmapOptions asked = options.roadmap;
   asked.robot_radius_m = plan.robot_radius;
   asked.clearance_m = plan.clearance;
-  const std::optional<Roadmap> roadmap = buildRoadmap(raster, asked);
-  if (!roadmap) throw GoalError(Outcome::kInvalidMap, "no robot of the plan fits on the map");
-  grid_ = gridOf(*roadmap);
+  ground_ = std::make_shared<const DiscGround>(std::move(raster), asked, 0);
+  grid_ = ground_->grid();
   const std::vector<std::string> wrong = findViolations(plan, {grid_, geometry_});
   if (!wrong.empty()) {
     throw GoalError(Outcome::kInvalidOption,
@@ -47,7 +50,12 @@ DiscParts::DiscParts(const MultiRobotPlan& plan, const nav_msgs::OccupancyGrid& 
                         "); cell_size, passages, ignore_specks and unknown_space have to be those "
                         "of the planner");
   }
-  moves_ = closeMovesOf(*roadmap);
+  moves_ = closeMovesOf(ground_->roadmap());
+  // Its spacing may be less than the one that the node's own option was meant for.
+  const double spacing_m = ground_->snapDistance();
+  snap_distance_m_ = options.snap_distance_m > 0
+                         ? std::min(options.snap_distance_m, kMostSnap * spacing_m)
+                         : spacing_m;
   distance_m_ = 2 * plan.robot_radius + plan.clearance;
   reach_m_ = plan.robot_radius + plan.clearance;
   readRobots(plan);
@@ -84,6 +92,57 @@ void DiscParts::readRobots(const MultiRobotPlan& plan) {
     home_.push_back(legOf(place_of(plan_.paths[i].back()), toRaster(frame, {goal.x, goal.y}),
                           path.radius, path.arrival_steps));
   }
+}
+
+std::optional<Vertex> DiscParts::vertexFor(PlanePoint place) const {
+  return ground_->nearest({place.x, place.y}, snap_distance_m_);
+}
+
+std::optional<std::string> DiscParts::whoComesNear(PlanePoint place) const {
+  for (std::size_t i = 0; i < away_.size(); ++i) {
+    if (comesNear(away_[i], {place})) return ids_[i];
+  }
+  return std::nullopt;
+}
+
+DrivenLeg DiscParts::homeOf(const JoiningDisc& robot) const {
+  const PlanePoint vertex = moves_->place(robot.goal);
+  std::uint32_t waves = 0;
+  for (const DrivenLeg& leg : home_) waves = std::max(waves, leg.wave + 1);
+  return legOf({vertex.x, vertex.y}, {robot.place.x, robot.place.y}, radius_m_, waves + 1);
+}
+
+std::string DiscParts::whyNot(const JoiningDisc& robot,
+                              const std::vector<std::string>& others) const {
+  const DrivenLeg leg = homeOf(robot);
+  for (std::size_t i = 0; i < ids_.size(); ++i) {
+    const bool is_there = std::find(others.begin(), others.end(), ids_[i]) != others.end();
+    if (!is_there || ids_[i] == robot.id) continue;
+    if (comesNear(home_[i], {moves_->place(robot.goal)})) {
+      return quoted(ids_[i]) + " leaves the planning graph too near to its goal";
+    }
+    if (comesNear(leg, {{home_[i].to.x, home_[i].to.y}})) {
+      return "its way off the planning graph leads past the goal of " + quoted(ids_[i]);
+    }
+  }
+  return "";
+}
+
+std::shared_ptr<const DiscParts> DiscParts::with(const JoiningDisc& robot) const {
+  auto more = std::make_shared<DiscParts>(*this);
+  const auto found = std::find(ids_.begin(), ids_.end(), robot.id);
+  const auto index = static_cast<std::size_t>(found - ids_.begin());
+  if (found == ids_.end()) {
+    more->ids_.push_back(robot.id);
+    more->away_.emplace_back();
+    more->home_.emplace_back();
+    more->plan_.paths.emplace_back();
+  }
+  const DrivenLeg home = homeOf(robot);
+  more->home_[index] = home;
+  more->away_[index] = {home.from, home.from, radius_m_, 0};
+  more->plan_.paths[index] = {robot.goal};
+  return more;
 }
 
 FleetPart DiscParts::part(std::uint32_t number, const std::vector<std::string>& ids,

@@ -126,6 +126,7 @@ void FleetServer::tick() {
   beginWhenReady(time);
   if (!fleet_) return;
   if (tasks_) joinReporting(time);
+  letWaitingJoin(time);
   if (index_.size() == fleet_->robots()) closeCells();
   fleet_->advance(time);
   if (tasks_) conductTasks(time);

@@ -182,12 +182,8 @@ std::string FleetServer::tryToJoin(const RobotTask& task, const Known& known) {
   if (!place) return "its place is not known, as its progress has no pose";
   const std::optional<Vertex> at = ground_->vertexUnder(*place, rasterPoint(point));
   if (!at) return "it is in cell " + grid_->geometry.describeWithMetres(*place) + whyNot(*place);
-  const std::string name = rosNameOf(id);
-  for (std::uint32_t robot = 0; robot < fleet_->robots(); ++robot) {
-    if (rosNameOf(fleet_->id(robot)) != name) continue;
-    return "its topic " + name + "/route is that of robot " + quote(fleet_->id(robot));
-  }
-  return fleet_->add(id, *at, kNoVertex);
+  const std::string taken = whoseTopic(id);
+  return taken.empty() ? fleet_->add(id, *at, kNoVertex) : taken;
 }
 
 /// Why a robot in a cell stands on no vertex.

@@ -104,6 +104,7 @@ void FleetServer::nameThoseLeft(const std::vector<FleetRobotStatus>& status) {
 /// @return whether there is one: robots that came to where this part led them go on.
 bool FleetServer::goOnToNextPart(const std::vector<FleetRobotStatus>& status, double now) {
   if (isLastPart() || fleet_->isCancelled()) return false;
+  nameThoseNotJoined();
   std::vector<std::string> ids;
   for (std::uint32_t robot = 0; robot < status.size(); ++robot) {
     const bool goes_on = status[robot].arrived && status[robot].absence == Absence::kNone;

@@ -86,6 +86,7 @@ void FleetServer::keepPart(FleetSnapshot& kept) const {
   for (const RobotFault& fault : faults_) {
     part.faults.push_back({fault.robot_id, fault.code, fault.message});
   }
+  keepJoined(part);
   kept.part = std::move(part);
 }
 
@@ -124,6 +125,8 @@ void FleetServer::takeUpAgain(double now) {
     fleet_.reset();
     ground_.reset();
     discs_.reset();
+    joined_.clear();
+    joining_next_.clear();
     left_out_.clear();
     faults_.clear();
     counts_.trouble = std::string("the execution that was under way is lost: ") + error.what();
@@ -180,6 +183,7 @@ FleetPart FleetServer::takeUpPart(const FleetSnapshot::Part& kept,
   }
   discs_plan_ = kept.plan;
   part_ = kept.number;
+  takeUpJoined(kept);
   part_options_ = options_.fleet;
   part_options_.step_sec = plan.step_duration;
   left_out_.clear();

@@ -342,6 +342,7 @@ void FleetServer::endWhenFinished(double now) {
   if (!fleet_ || replans_ || !fleet_->isFinished()) return;
   const std::vector<FleetRobotStatus> status = fleet_->status(now);
   if (goOnToNextPart(status, now)) return;
+  nameThoseWaiting();
   if (discs_ && isLastPart() && !fleet_->isCancelled()) nameThoseLeft(status);
   std::vector<RobotFault> all = faults_;
   for (RobotFault& fault : faultsOf(*fleet_, status, *grid_)) {
@@ -405,6 +406,8 @@ void FleetServer::end(const ExecutePlanResult& result) {
   plan_id_.clear();
   index_.clear();
   discs_.reset();
+  joined_.clear();
+  joining_next_.clear();
   left_out_.clear();
   faults_.clear();
   all_paused_ = false;

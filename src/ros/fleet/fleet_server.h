@@ -179,6 +179,19 @@ class FleetServer {
   bool pauseRobots(PauseRobots::Request& request, PauseRobots::Response& response);
   std::string tryToAdd(const RobotTask& task);
   std::string tryToEnlist(const RobotTask& task, const Known& known);
+  std::string tryToJoinPlan(const RobotTask& task, const Known& known);
+  std::string tryToJoinDiscs(const RobotTask& task, const Known& known);
+  std::string whoseTopic(const std::string& id) const;
+  bool isWaitingToJoin(const std::string& id) const;
+  std::string standsOnVertex(const RobotTask& task, const Known& known, Vertex& at) const;
+  std::string readGoal(const RobotTask& task, Vertex at, JoiningDisc& robot) const;
+  std::string whyNoEnd(const JoiningDisc& robot) const;
+  std::string joinPart(const JoiningDisc& robot, Vertex at);
+  void letWaitingJoin(double now);
+  void nameThoseNotJoined();
+  void nameThoseWaiting();
+  void keepJoined(FleetSnapshot::Part& part) const;
+  void takeUpJoined(const FleetSnapshot::Part& kept);
   std::string tryToJoin(const RobotTask& task, const Known& known);
   std::string whyNot(Cell place) const;
 
@@ -215,6 +228,10 @@ class FleetServer {
   std::map<std::string, LeftOut> part_left_out_;
   std::string discs_plan_;
   std::vector<bool> left_out_cells_;  ///< by vertex of the part
+  /// Robots that were added to the plan: those that are to join when all are on the graph, and
+  /// those that were let in, of which discs_ knows.
+  std::vector<JoiningDisc> joining_next_;
+  std::vector<JoiningDisc> joined_;
   /// What is near to cells, by column, row and distance, as far as it was asked for on a graph.
   std::map<std::tuple<std::int32_t, std::int32_t, double>, std::vector<Vertex>> near_;
   std::shared_ptr<const CloseMoves> near_of_;

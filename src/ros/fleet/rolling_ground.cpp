@@ -27,15 +27,19 @@ MapPoint centreOf(const DiscGround& discs, Cell cell) {
 
 }  // namespace
 
-std::optional<Vertex> RollingGround::vertexUnder(Cell cell,
-                                                 const std::optional<PlanePoint>& point) const {
-  if (!discs) return onGrid(*grid.grid, cell);
-  const double half_m = discs->roadmap().clearance_m / 2;
-  const double cell_m = discs->raster().resolution_m;
-  if (point) return discs->nearest({point->x, point->y}, half_m + kRounding * cell_m);
+std::optional<Vertex> vertexUnder(const DiscGround& discs, Cell cell,
+                                  const std::optional<PlanePoint>& point) {
+  const double half_m = discs.roadmap().clearance_m / 2;
+  const double cell_m = discs.raster().resolution_m;
+  if (point) return discs.nearest({point->x, point->y}, half_m + kRounding * cell_m);
   const double off_m = half_m - kHalfDiagonal * cell_m;
   // The vertex's own cell will do in any case.
-  return discs->nearest(centreOf(*discs, cell), std::max(0.0, off_m));
+  return discs.nearest(centreOf(discs, cell), std::max(0.0, off_m));
+}
+
+std::optional<Vertex> RollingGround::vertexUnder(Cell cell,
+                                                 const std::optional<PlanePoint>& point) const {
+  return discs ? split_mapf::vertexUnder(*discs, cell, point) : onGrid(*grid.grid, cell);
 }
 
 std::optional<Vertex> RollingGround::vertexFor(Cell cell) const {

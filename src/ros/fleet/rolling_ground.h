@@ -13,6 +13,14 @@
 
 namespace split_mapf {
 
+/// The vertex of a planning graph on which a robot counts as standing: one from which it is off by
+/// half of the clearance at most, and a tenth of a cell of the map as poses are rounded, so that it
+/// still keeps apart from all others.
+/// @param point  where it is on the raster; nothing: all that is known is its cell, of which that
+/// of a vertex will do.
+std::optional<Vertex> vertexUnder(const DiscGround& discs, Cell cell,
+                                  const std::optional<PlanePoint>& point);
+
 /// What a rolling fleet drives on: the cells of a map where robots fit into them, else its planning
 /// graph.
 struct RollingGround {
@@ -24,11 +32,8 @@ struct RollingGround {
   /// Between centres, on a planning graph [m]; 0 on cells.
   double distance() const { return discs ? discs->distance() : 0; }
 
-  /// The vertex on which a robot counts as standing: that of its cell; on a planning graph one from
-  /// which it is off by half of the clearance at most, and a tenth of a cell of the map as poses
-  /// are rounded, so that it still keeps apart from all others.
-  /// @param point  where it is on the raster of a planning graph; nothing: all that is known is its
-  /// cell, of which that of a vertex will do.
+  /// The vertex on which a robot counts as standing: that of its cell; on a planning graph as
+  /// above.
   std::optional<Vertex> vertexUnder(Cell cell, const std::optional<PlanePoint>& point) const;
   /// The vertex that a goal in a cell stands for: on a planning graph the nearest within the snap
   /// distance, by a straight way on which a robot fits.
