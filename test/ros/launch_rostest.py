@@ -11,7 +11,7 @@ import rosunit
 import yaml
 from nav_msgs.msg import MapMetaData
 
-from ros_processes import Program
+from ros_processes import Program, wait_until
 
 
 class Launch(unittest.TestCase):
@@ -59,11 +59,14 @@ class Launch(unittest.TestCase):
         self.assertEqual(after["Window Geometry"], before["Window Geometry"])
 
     def test_a_warehouse_of_either_language_brings_its_orders_home(self):
-        for manager in ("warehouse_manager.py", "warehouse_manager"):
+        for manager, radius in (("warehouse_manager.py", 0.0), ("warehouse_manager", 0.3)):
             demo = Program("roslaunch", "split_mapf", "warehouse_demo.launch", "robots:=6",
                            "columns:=1", "rows:=2", "orders:=6", "speed:=8.0", "rviz:=false",
-                           "manager:=" + manager)
+                           "robot_radius:=%g" % radius, "manager:=" + manager)
             self.addCleanup(demo.end)
+            self.assertTrue(wait_until(lambda of_demo=radius: rospy.get_param(
+                "/fleet/robot_radius", None) == of_demo), demo.output())
+            self.assertEqual(rospy.get_param("/fake_robots/diameter"), 2 * radius)
             self.assertTrue(demo.wait_for_output(" 6 orders done"), demo.output())
             self.assertIn("0 moves failed", demo.output())
             demo.wait()
