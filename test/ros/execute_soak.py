@@ -2,10 +2,15 @@
 """Measures the action ~execute with robots without hardware, on a ROS master of its own. Not part of the
 tests that run each time: it takes minutes, and its figures depend on the machine.
 
-Robots of a warehouse carry out a plan, then the same one backwards, and so on for some minutes. Some are
-late; the node improves nothing (policy graph), is killed in the middle of the last plan, and starts again.
-Every execution ends with all robots at their goals, the node's memory stays flat, and places are checked
-from a bag by a script that knows the bag alone.
+  execute_soak.py long   robots of a warehouse carry out a plan, then the same one backwards, and so on for
+                         some minutes. Some are late; the node improves nothing (policy graph), is killed in
+                         the middle of the last plan, and starts again. Every execution ends with all robots
+                         at their goals, the node's memory stays flat, and places are checked from a bag by
+                         a script that knows the bag alone.
+  execute_soak.py death  robots carry out the plan, and some of them, drawn anew each time, die on the way:
+                         each says FAULT, stands from then on, and is taken out by ~remove_robot. How long
+                         from its FAULT until the first routes come that are planned anew, and from the call
+                         until all others have a route that is younger? All arrive who still have a way.
 
 exit codes: 0 all is well, 1 something is not (see the last lines)
 """
@@ -14,6 +19,7 @@ import argparse
 import os
 import signal
 import statistics
+import struct
 import sys
 import time
 
@@ -26,11 +32,13 @@ from nav_msgs.msg import OccupancyGrid
 from fleet_case import make_plan
 from ros_processes import SentGoal, start_program, wait_until
 from split_mapf.msg import (ExecutePlanAction, ExecutePlanGoal, MultiRobotPlan, PlanOutcome, RobotPath,
-                            RobotState)
+                            RobotProgress, RobotRoute, RobotState)
+from split_mapf.srv import RemoveRobot
 
 LOOK_SEC = 10
 # Beyond what a process needs once it has done everything once.
 MOST_GROWTH_MIB = 20
+MOST_SEC_TO_NEW_ROUTES = 1.0
 
 
 def backwards(plan):
@@ -50,6 +58,8 @@ def backwards(plan):
 
 
 class ExecuteSoak(Soak):
+    policy = "graph"
+
     def publish_starts(self):
         """Of a plan for all robots."""
         width, height = self.options.size
@@ -63,7 +73,7 @@ class ExecuteSoak(Soak):
     def start_fleet(self):
         self.fleet = self.start(start_program(
             "executor_node", "_execution_file:=" + os.path.join(self.directory.name, "kept.json"),
-            "_threads:=1", "_policy:=graph", "_release_ahead:=3", "_progress_timeout:=30",
+            "_threads:=1", "_policy:=" + self.policy, "_release_ahead:=3", "_progress_timeout:=30",
             "_robot_radius:=%g" % self.options.radius))
         if not self.fleet.wait_for_output("ready:"):
             raise RuntimeError(self.fleet.output())
@@ -158,18 +168,146 @@ class ExecuteSoak(Soak):
         self.require(statistics.median(self.shares) < 20, "the node takes 20 % of a core")
 
 
+def name_in(message):
+    """The first string of a raw message, and what follows it. Thousands of messages a second are too
+    many to decode in python."""
+    buffer = message._buff  # pylint: disable=protected-access
+    (length,) = struct.unpack_from("<I", buffer, 0)
+    return buffer[4:4 + length].decode(), buffer, 4 + length
+
+
+class Deaths:
+    """Robots that say FAULT, and all routes, with the times at which they came."""
+
+    def __init__(self):
+        self.faults = {}
+        self.routes = []
+        rospy.Subscriber("progress", rospy.AnyMsg, self.take_progress, queue_size=20000,
+                         tcp_nodelay=True)
+        rospy.Subscriber("fleet/routes", rospy.AnyMsg, self.take_route, queue_size=20000,
+                         tcp_nodelay=True)
+
+    def take_progress(self, message):
+        robot, buffer, offset = name_in(message)
+        (length,) = struct.unpack_from("<I", buffer, offset)
+        # Behind the plan's id: sequence, fraction, status.
+        if buffer[offset + 4 + length + 8] == RobotProgress.FAULT:
+            self.faults.setdefault(robot, time.monotonic())
+
+    def take_route(self, message):
+        self.routes.append((time.monotonic(), message._buff))  # pylint: disable=protected-access
+
+    def routes_between(self, begin, end):
+        return [(at, RobotRoute().deserialize(buffer)) for at, buffer in list(self.routes)
+                if begin < at <= end]
+
+
+def is_renumbered(route):
+    """Visits that were planned anew have numbers that do not follow those before."""
+    numbers = [visit.sequence for visit in route.visits]
+    return any(b != a + 1 for a, b in zip(numbers, numbers[1:]))
+
+
+class DeathSoak(ExecuteSoak):
+    policy = "replan"
+
+    def run(self):
+        self.until_planned, self.until_told, self.without_way = [], [], 0
+        for execution in range(self.options.executions):
+            self.die_on_the_way(execution)
+        self.tell("from a FAULT to the first routes that are planned anew", self.until_planned)
+        self.tell("from the call of ~remove_robot to younger routes of all", self.until_told)
+        print("%d robots had no way to their goals" % self.without_way)
+
+    def die_on_the_way(self, execution):
+        """One execution, with a node and robots of its own."""
+        victims = self.draw.sample(range(self.options.robots), self.options.deaths)
+        length = max(len(path.cells) for path in self.plan.paths) * self.options.step
+        times = [self.draw.uniform(0.05, 0.6) * length for _ in victims]
+        rospy.set_param("/fake_robots/failures",
+                        ["r%d:%.2f" % death for death in zip(victims, times)])
+        rospy.set_param("/fake_robots/seed", execution)
+        self.start_fleet()
+        deaths = Deaths()
+        self.start_robots("_delay_probability:=0.0005", "_min_delay:=10", "_max_delay:=30",
+                          "_delay_step:=%g" % self.options.step)
+        time.sleep(2)
+        self.state = None
+        goal = self.send(self.plan)
+        remove = rospy.ServiceProxy("fleet/remove_robot", RemoveRobot)
+        removed = set()
+
+        def goes_on():
+            for robot, at in list(deaths.faults.items()):
+                if robot not in removed and time.monotonic() - at > 3:
+                    removed.add(robot)
+                    self.measure(deaths, remove, robot, removed)
+            return goal.wait_for_end(0.05)
+
+        self.require(wait_until(goes_on, 3600), "the execution has no end")
+        self.require(len(removed) == len(victims), "%d robots died" % len(removed))
+        self.judge(goal.result(), removed)
+        for program in (self.programs.pop(), self.programs.pop()):
+            program.end()
+
+    def measure(self, deaths, remove, robot, removed):
+        died = deaths.faults[robot]
+        anew = [at for at, route in deaths.routes_between(died, died + 3) if is_renumbered(route)]
+        # Those of one plan come at once; later ones are improvements.
+        if anew:
+            self.until_planned.append(max(at for at in anew if at - anew[0] < 0.1) - died)
+        called = time.monotonic()
+        self.require(remove(robot).ok, "%s cannot be removed" % robot)
+        others = {"r%d" % i for i in range(self.options.robots)} - removed
+
+        def missing():
+            return others - {route.robot_id for _, route in deaths.routes_between(called, 1e18)}
+
+        if not wait_until(lambda: not missing(), 10):
+            self.require(False, "%d robots have no younger route" % len(missing()))
+            return
+        last = {}
+        for at, route in deaths.routes_between(called, 1e18):
+            last.setdefault(route.robot_id, at)
+        self.until_told.append(max(last[other] for other in others) - called)
+
+    def judge(self, result, removed):
+        """Who is named at the end has no way, as somebody dead stands at its goal."""
+        at_fault = {fault.robot_id: fault for fault in result.faults}
+        for robot, fault in at_fault.items():
+            self.require(fault.code in (PlanOutcome.UNREACHABLE_GOAL, PlanOutcome.BLOCKED_CELL),
+                         "%s: %s" % (robot, fault.message))
+        self.without_way += len(at_fault)
+        expected = self.options.robots - len(removed) - len(at_fault)
+        self.require(wait_until(lambda: self.arrived() == expected, 5),
+                     "%d robots arrived, not %d" % (self.arrived(), expected))
+        self.executions = 1
+
+    def tell(self, what, seconds):
+        if not seconds:
+            self.require(False, "nothing measured: " + what)
+            return
+        print("%s, %d robots, %d draws: median %.2f s, at most %.2f s" %
+              (what, self.options.robots, len(seconds), statistics.median(seconds), max(seconds)))
+        self.require(max(seconds) <= MOST_SEC_TO_NEW_ROUTES, "too long " + what)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("mode", choices=("long", "death"), nargs="?", default="long")
     parser.add_argument("--robots", type=int, default=1000)
+    parser.add_argument("--executions", type=int, default=4, help="death: of the plan (4)")
+    parser.add_argument("--deaths", type=int, default=5, help="death: in each execution (5)")
     parser.add_argument("--minutes", type=float, default=10,
-                        help="after two fifths of them the next execution is the last one (10)")
+                        help="long: after two fifths of them the next execution is the last one (10)")
     parser.add_argument("--size", type=int, nargs=2, default=(161, 63), metavar=("W", "H"),
                         help="of the warehouse [cells] (161 63)")
     parser.add_argument("--step", type=float, default=1.0, help="[s] (1)")
     parser.add_argument("--radius", type=float, default=0.35, help="[m] of robots (0.35)")
     parser.add_argument("--seed", type=int, default=1)
-    soak = ExecuteSoak(parser.parse_args())
+    options = parser.parse_args()
+    soak = (ExecuteSoak if options.mode == "long" else DeathSoak)(options)
     return run_to_end(soak, soak.run)
 
 
