@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "core/detour_search.h"
 #include "core/guided_search.h"
 
 namespace split_mapf {
@@ -124,6 +125,7 @@ void DistanceTable::searchWide(const Graph& graph, std::vector<Vertex>& queue, s
 }
 
 std::uint32_t DistanceTable::search(Vertex v) const {
+  if (detours_) return searchDetours(v);
   if (guided_) return searchGuided(v);
   while (head_ < queue_.size()) {
     const Vertex from = queue_[head_++];
@@ -146,12 +148,15 @@ void DistanceTable::settle(Vertex v, std::uint32_t distance) const {
     wide_[v] = distance;
     return;
   }
-  std::uint32_t& page = page_of_[v >> kPageBits];
-  if (page == 0) {
-    page = static_cast<std::uint32_t>(narrow_.size() / kPageSize);
-    narrow_.resize(narrow_.size() + kPageSize, kNarrowUnknown);
-  }
+  takePage(v);
   narrow_[placeOf(v)] = static_cast<std::uint16_t>(distance);
+}
+
+void DistanceTable::takePage(Vertex v) const {
+  std::uint32_t& page = page_of_[v >> kPageBits];
+  if (page != 0) return;
+  page = static_cast<std::uint32_t>(narrow_.size() / kPageSize);
+  narrow_.resize(narrow_.size() + kPageSize, kNarrowUnknown);
 }
 
 void DistanceTable::widen() const {
@@ -171,6 +176,7 @@ std::size_t DistanceTable::bytes() const {
                       page_of_.capacity() * sizeof page_of_[0] +
                       wide_.capacity() * sizeof wide_[0] + queue_.capacity() * sizeof queue_[0];
   if (guided_) bytes += bytesOfGuide();
+  if (detours_) bytes += bytesOfDetours();
   return bytes;
 }
 

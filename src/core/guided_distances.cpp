@@ -1,19 +1,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/detour_search.h"
 #include "core/guided_search.h"
 
 namespace split_mapf {
-namespace {
-
-// A guided search takes about five times as long a vertex as one of all: at this share of the
-// vertices it has taken more than half as long.
-constexpr std::size_t kShareWorthCompleting = 8;
-
-}  // namespace
-
 DistanceTable::DistanceTable(Vertex goal, DistanceGuide guide) : goal_(goal) {
   startOnDemand(guide.grid->graph());
+  if (paysDetours(guide)) {
+    startDetours(std::move(guide));
+    return;
+  }
   guided_ = std::make_unique<GuidedSearch>(std::move(guide));
   guided_->length = guided_->bound(goal);
   guided_->open.push_back(goal);
@@ -58,6 +55,7 @@ void DistanceTable::complete() const {
   wide_ = std::move(all.wide_);
   std::vector<std::uint32_t>().swap(page_of_);
   guided_.reset();
+  detours_.reset();
   graph_ = nullptr;
 }
 

@@ -244,6 +244,62 @@ TEST(DistanceTableGuided, CompletesItselfWhereMuchIsAsked) {
   for (Vertex v = 0; v < grid->size(); ++v) ASSERT_EQ(guided(v), whole(v));
 }
 
+/// A table as those of a pool are: it begins with ways from wherever somebody asks.
+DistanceTable tableOfAPool(const Grid& grid, Vertex goal, Vertex from) {
+  return {goal, DistanceGuide{&grid, from, nullptr, true}};
+}
+
+std::shared_ptr<const Grid> strewnGrid(std::uint32_t side, std::uint64_t blocked_of_100,
+                                       RandomEngine& engine) {
+  std::vector<bool> free(std::size_t{side} * side);
+  for (std::size_t i = 0; i < free.size(); ++i) free[i] = drawBelow(engine, 100) >= blocked_of_100;
+  free[0] = true;
+  return std::make_shared<const Grid>(side, side, free);
+}
+
+TEST(DistanceTableOfDetours, SaysTheSameAsASearchOfAll) {
+  std::uint32_t unreachable = 0;
+  std::uint32_t in_part = 0;
+  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+    RandomEngine engine(seed);
+    const auto grid = strewnGrid(40, 5 * (seed % 8), engine);
+    const auto draw = [&] { return static_cast<Vertex>(drawBelow(engine, grid->size())); };
+    const Vertex goal = draw();
+    const DistanceTable whole(grid->graph(), goal);
+    const DistanceTable table = tableOfAPool(*grid, goal, draw());
+    for (int question = 0; question < 30; ++question) {
+      const Vertex v = draw();
+      ASSERT_EQ(table(v), whole(v)) << "seed " << seed << " vertex " << v;
+      for (const Vertex u : grid->graph().neighbours(v)) ASSERT_EQ(table(u), whole(u));
+      unreachable += whole(v) == DistanceTable::kUnreachable;
+      in_part += table.isShareable() ? 0 : 1;
+    }
+  }
+  EXPECT_GT(unreachable, 20U);
+  EXPECT_GT(in_part, 500U) << "nearly all were searched as a whole";
+}
+
+TEST(DistanceTableOfDetours, KnowsThatAGoalIsOpenOnTheFarSideOnly) {
+  // A pocket around the goal, open to the right: all ways from the left have two steps away.
+  const std::uint32_t side = 200;
+  std::vector<bool> free(std::size_t{side} * side, true);
+  const auto block = [&](std::uint32_t x, std::uint32_t y) {
+    free[std::size_t{y} * side + x] = false;
+  };
+  for (std::uint32_t x = 148; x <= 151; ++x) block(x, 148);
+  for (std::uint32_t x = 148; x <= 151; ++x) block(x, 152);
+  for (std::uint32_t y = 148; y <= 152; ++y) block(148, y);
+  const Grid grid(side, side, free);
+  const Vertex goal = grid.vertexAt({149, 150});
+  const Vertex from = grid.vertexAt({3, 9});
+  const DistanceTable whole(grid.graph(), goal);
+  const DistanceTable table = tableOfAPool(grid, goal, from);
+  EXPECT_EQ(table(from), whole(from));
+  EXPECT_EQ(whole(from), 287U + 2 * 3);
+  EXPECT_FALSE(table.isShareable()) << "it looked for shorter ways all over the map";
+  EXPECT_LT(table.bytes(), 70000U) << "likewise";
+}
+
 TEST(DistanceTablesOfAPool, SayTheSameWhateverIsGivenUp) {
   for (const std::size_t bytes : {std::size_t{1}, std::size_t{4000}, std::size_t{1} << 30U}) {
     for (std::uint64_t seed = 0; seed < 50; ++seed) {

@@ -88,12 +88,23 @@ class DistanceTable {
   void searchWide(const Graph& graph, std::vector<Vertex>& queue, std::size_t head,
                   std::size_t tail, const Deadline& deadline);
   struct GuidedSearch;
+  struct DetourSearch;
+  // At this share of the vertices a search of parts has taken more than half as long as one of all.
+  static constexpr std::size_t kShareWorthCompleting = 8;
 
   void startOnDemand(const Graph& graph);
   /// Goes on with the search until it meets `v` or ends.
   std::uint32_t search(Vertex v) const;
   std::uint32_t searchGuided(Vertex v) const;
   std::size_t bytesOfGuide() const;
+  /// Whether the table begins with the ways from wherever somebody asks, see DetourSearch.
+  static bool paysDetours(const DistanceGuide& guide);
+  void startDetours(DistanceGuide guide);
+  void leaveDetours() const;
+  std::uint32_t searchDetours(Vertex v) const;
+  void tryNextMove() const;
+  std::uint8_t& leastDetour(Vertex v) const;
+  std::size_t bytesOfDetours() const;
   /// Whether so much is known that a search of all is the cheaper way to the rest.
   bool isWorthCompleting() const;
   /// @throws std::bad_alloc; the table is then as it was.
@@ -104,6 +115,8 @@ class DistanceTable {
     return wide_.empty() ? narrow_[placeOf(v)] != kNarrowUnknown : wide_[v] != kUnreachable;
   }
   void settle(Vertex v, std::uint32_t distance) const;
+  /// Makes room for the distance of `v`. @pre distances take 16 bits.
+  void takePage(Vertex v) const;
   void widen() const;
 
   Vertex goal_;
@@ -116,6 +129,7 @@ class DistanceTable {
   mutable std::size_t head_ = 0;
   mutable const Graph* graph_ = nullptr;  // null: everything was searched at once
   mutable std::unique_ptr<GuidedSearch> guided_;
+  mutable std::unique_ptr<DetourSearch> detours_;
 };
 
 class DistanceTables;
