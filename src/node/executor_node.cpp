@@ -1,5 +1,6 @@
 // The executor node: wiring only.
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 
