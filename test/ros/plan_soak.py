@@ -233,7 +233,7 @@ class PlanSoak:
                                PlanPathsActionResult) for number in range(self.options.clients)]
         if not wait_until(lambda: all(client.is_connected() for client in clients)):
             raise RuntimeError("no action server: " + self.node.output())
-        threads = [threading.Thread(target=self.conduct, args=(client, number))
+        threads = [threading.Thread(target=self.conduct_to_end, args=(client, number))
                    for number, client in enumerate(clients)]
         for thread in threads:
             thread.start()
@@ -241,9 +241,21 @@ class PlanSoak:
         self.stopping.set()
         for thread in threads:
             thread.join()
-        wait_until(lambda: not any(client.open() for client in clients), PATIENCE_SEC)
         self.judge(clients)
         self.end_node()
+
+    def wait_for_ends(self, clients):
+        """@return false when a goal has none, or the node is down."""
+        def are_ended():
+            return not any(client.open() for client in clients)
+        wait_until(lambda: are_ended() or self.node.process.poll() is not None, PATIENCE_SEC)
+        return are_ended()
+
+    def conduct_to_end(self, client, number):
+        try:
+            self.conduct(client, number)
+        except Exception as error:  # pylint: disable=broad-except
+            self.require(False, "client %d has stopped: %r" % (number, error))
 
     def conduct(self, client, number):
         goals = RandomGoals(self.options.seed * 1000 + number, self.maps)
@@ -256,7 +268,7 @@ class PlanSoak:
                 if draw.random() < 0.15:
                     time.sleep(draw.choice((0, 0.01, 0.3)))
                     client.cancel(name)
-            if not wait_until(lambda: not client.open(), PATIENCE_SEC):
+            if not self.wait_for_ends([client]):
                 self.require(False, "client %d waits for %s" % (number, client.open()))
                 return
             self.judge_ended(client)
@@ -267,7 +279,7 @@ class PlanSoak:
         begun = time.monotonic()
         length = 60 * self.options.minutes
         warm = min(WARM_UP_SEC, length / 3)
-        self.memory = {False: [], True: []}
+        self.memory = {False: [memory_mib(self.node.process.pid)], True: []}
         while time.monotonic() - begun < length and not self.wrong:
             time.sleep(LOOK_SEC)
             if self.node.process.poll() is not None:
@@ -317,7 +329,8 @@ class PlanSoak:
 
     def end_node(self):
         early, late = self.memory[False], self.memory[True]
-        if early and late:
+        self.require(late, "the memory was not looked at: too short, or ended too early")
+        if late:
             print("memory [MiB]: at most %.0f at first, %.0f to %.0f after it, %.0f at the end" %
                   (max(early), min(late), max(late), late[-1]))
             self.require(max(late) <= max(early) + self.options.most_growth, "memory has grown")
