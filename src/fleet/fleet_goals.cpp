@@ -37,9 +37,11 @@ std::vector<std::uint32_t> partsOf(const Graph& graph) {
 /// One call of chooseGoals().
 class Choice {
  public:
-  Choice(const Grid& open, const std::vector<bool>& blocked, const std::vector<Vertex>& starts)
+  Choice(const Grid& open, const std::vector<bool>& blocked, const std::vector<Vertex>& starts,
+         const std::vector<bool>& shunned)
       : graph_(open.graph()),
         blocked_(blocked),
+        shunned_(shunned),
         starts_(starts),
         parts_(partsOf(graph_)),
         seen_(graph_.size(), 0) {}
@@ -83,6 +85,8 @@ class Choice {
     }
   }
 
+  bool isShunned(Vertex v) const { return !shunned_.empty() && shunned_[v]; }
+
   /// Robots without a goal stay where nobody is wanted, or go to the nearest vertex where nobody is
   /// wanted or begins.
   void park() {
@@ -93,9 +97,10 @@ class Choice {
     }
     for (std::uint32_t robot = 0; robot < starts_.size(); ++robot) {
       const bool lacks_goal = chosen_.faults[robot] != GoalFault::kNone;
-      if (!lacks_goal || wanted_by_[chosen_.goals[robot]] == kNobody) continue;
+      const Vertex goal = chosen_.goals[robot];
+      if (!lacks_goal || (wanted_by_[goal] == kNobody && !isShunned(goal))) continue;
       flood(graph_, starts_[robot], seen_, ++mark_, [&](Vertex v) {
-        if (taken[v] || blocked_[v]) return false;
+        if (taken[v] || blocked_[v] || isShunned(v)) return false;
         chosen_.goals[robot] = v;
         taken[v] = true;
         return true;
@@ -107,6 +112,7 @@ class Choice {
 
   const Graph& graph_;
   const std::vector<bool>& blocked_;
+  const std::vector<bool>& shunned_;
   const std::vector<Vertex>& starts_;
   std::vector<std::uint32_t> parts_;
   std::vector<std::uint32_t> seen_;
@@ -119,8 +125,9 @@ class Choice {
 
 FleetGoals chooseGoals(const Grid& open, const std::vector<bool>& blocked,
                        const std::vector<Vertex>& starts, const std::vector<Vertex>& wanted,
-                       const std::vector<bool>& takes_part, const std::vector<GoalFault>& known) {
-  return Choice(open, blocked, starts).run(wanted, takes_part, known);
+                       const std::vector<bool>& takes_part, const std::vector<GoalFault>& known,
+                       const std::vector<bool>& shunned) {
+  return Choice(open, blocked, starts, shunned).run(wanted, takes_part, known);
 }
 
 }  // namespace split_mapf

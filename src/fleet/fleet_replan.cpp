@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "fleet/fleet_goals.h"
+#include "fleet/fleet_rotations.h"
 #include "pipeline/mended_rest.h"
 #include "search/ring_breaking.h"
 #include "split_mapf/core/error.h"
@@ -15,17 +16,8 @@ namespace {
 
 // Plans that are made to find one without rings.
 constexpr std::uint32_t kTriesAtRings = 4;
-
-/// The rows and columns of all vertices, row-major.
-std::vector<std::uint32_t> cellsOf(const Grid& grid) {
-  std::vector<std::uint32_t> cells(grid.size());
-  for (Vertex v = 0; v < grid.size(); ++v) {
-    const Cell cell = grid.cellOf(v);
-    cells[v] =
-        static_cast<std::uint32_t>(cell.y) * grid.width() + static_cast<std::uint32_t>(cell.x);
-  }
-  return cells;
-}
+// Other places for robots without a way, where rings stay whatever the plan.
+constexpr std::uint32_t kPlacesTried = 4;
 
 /// One call of answerFleet().
 class FleetRun {
@@ -64,13 +56,12 @@ class FleetRun {
 
   FleetAnswer planAnew(const Planner& planner, const PlanRequest& request) {
     starts_.insert(starts_.end(), question_.joiners.begin(), question_.joiners.end());
-    std::vector<bool> takes_part = question_.takes_part;
-    takes_part.resize(starts_.size(), true);
+    takes_part_ = question_.takes_part;
+    takes_part_.resize(starts_.size(), true);
     const auto open = openPart(question_.grid, question_.blocked, question_.closed_edges);
     answer_.faults.assign(starts_.size(), GoalFault::kNone);
     for (std::size_t given_up = 0; given_up <= starts_.size(); ++given_up) {
-      FleetGoals chosen = chooseGoals(*open, question_.blocked, starts_, question_.goals,
-                                      takes_part, answer_.faults);
+      FleetGoals chosen = goalsOn(*open);
       answer_.faults = std::move(chosen.faults);
       setGround(open, chosen.goals);
       if (tryToMend(open)) break;
@@ -78,6 +69,8 @@ class FleetRun {
       if (!hopeless) break;
       answer_.faults[*hopeless] = GoalFault::kNoWay;
     }
+    makeRoomToTurn(open, planner, request);
+    giveUpForTheOthers(open, planner, request);
     // Other plans may use all edges.
     if (is_cut_) answer_.ground.reset();
     return std::move(answer_);
@@ -145,39 +138,97 @@ class FleetRun {
     return std::nullopt;
   }
 
+  FleetGoals goalsOn(const Grid& open, const std::vector<bool>& shunned = {}) const {
+    return chooseGoals(open, question_.blocked, starts_, question_.goals, takes_part_,
+                       answer_.faults, shunned);
+  }
+
+  /// Where every plan rotates robots it may be a robot without a way that stands where others have
+  /// to pass each other: then such robots are sent away from where the rings are, or all of them
+  /// farther, and the plan with the fewest rings is the answer.
+  void makeRoomToTurn(const std::shared_ptr<const Grid>& open, const Planner& planner,
+                      const PlanRequest& request) {
+    std::vector<bool> shunned(open->size(), false);
+    for (std::uint32_t tries = 0; tries < kPlacesTried && ringsStay(); ++tries) {
+      const std::vector<Vertex> before = answer_.ground->instance.goals();
+      for (const Rotation& ring : rings_) {
+        for (const Edge& edge : ring.edges) shunned[edge.first] = shunned[edge.second] = true;
+      }
+      FleetGoals chosen = goalsOn(*open, shunned);
+      if (chosen.goals == before) {
+        for (std::uint32_t robot = 0; robot < before.size(); ++robot) {
+          if (answer_.faults[robot] != GoalFault::kNone) shunned[before[robot]] = true;
+        }
+        chosen = goalsOn(*open, shunned);
+      }
+      // Nobody's goal is given up for it.
+      if (chosen.goals == before || chosen.faults != answer_.faults) return;
+      planTo(chosen.goals, open, planner, request);
+    }
+  }
+
+  void planTo(const std::vector<Vertex>& goals, const std::shared_ptr<const Grid>& open,
+              const Planner& planner, const PlanRequest& request) {
+    setGround(open, goals);
+    rings_.clear();
+    is_cut_ = false;
+    tryToPlan(planner, request);
+  }
+
+  /// Where all have tried and nobody can get on, a robot of the rings gives up its goal if that
+  /// leaves fewer rings, then another: better one that is named than all who stand for good.
+  void giveUpForTheOthers(const std::shared_ptr<const Grid>& open, const Planner& planner,
+                          const PlanRequest& request) {
+    for (bool gained = question_.stalled; gained && ringsStay();) {
+      gained = false;
+      for (const std::uint32_t robot : robotsOf(rings_)) {
+        if (!mayGiveUp(robot) || deadline_.expired()) continue;
+        const std::vector<GoalFault> faults = answer_.faults;
+        const std::uint32_t rings = answer_.rings;
+        answer_.faults[robot] = GoalFault::kNoWay;
+        const FleetGoals chosen = goalsOn(*open);
+        if (chosen.faults == answer_.faults) planTo(chosen.goals, open, planner, request);
+        gained = answer_.rings < rings;
+        if (gained) break;
+        answer_.faults = faults;
+      }
+    }
+  }
+
+  /// Of the plan that is the answer so far.
+  bool ringsStay() const {
+    return breaksRings() && answer_.execution && answer_.rings > 0 && !deadline_.expired();
+  }
+
   /// Takes an edge out of the cycle of each ring of the last plan, where no robot can rotate then.
   /// As the edge lies on a cycle, its ends stay connected.
   void cutRings(std::uint32_t number) {
     std::vector<Edge> removed = question_.closed_edges;
-    for (const std::vector<Edge>& ring : rings_) {
-      removed.push_back(ring[(question_.budget.seed + number) % ring.size()]);
+    for (const Rotation& ring : rings_) {
+      removed.push_back(ring.edges[(question_.budget.seed + number) % ring.edges.size()]);
     }
     const std::vector<Vertex> goals = answer_.ground->instance.goals();
     setGround(openPart(question_.grid, question_.blocked, removed), goals);
     is_cut_ = true;
   }
 
-  /// The edges along which robots of each ring rotate.
-  static std::vector<std::vector<Edge>> edgesOf(const ExecutionGraph& graph) {
-    const Precedence& order = graph.precedence();
-    std::vector<std::vector<Edge>> rings;
-    for (const Ring& ring : graph.rings()) {
-      rings.emplace_back();
-      for (const VisitId event : ring) {
-        const auto ends = std::minmax(order[event - 1].vertex, order[event].vertex);
-        rings.back().emplace_back(ends.first, ends.second);
-      }
-    }
-    return rings;
-  }
-
-  /// Of the robots that a refusal names one that is sent to a goal and may be sent elsewhere.
+  /// Of the robots that a refusal names one that is sent to a goal and may be sent elsewhere; where
+  /// none is, one for whom one of them has to leave its place.
   std::optional<std::uint32_t> whoGivesUp(const SolvabilityVerdict& refusal) const {
     for (auto robot = refusal.robots.rbegin(); robot != refusal.robots.rend(); ++robot) {
-      const bool goes = *robot >= question_.takes_part.size() || question_.takes_part[*robot];
-      if (goes && answer_.faults[*robot] == GoalFault::kNone) return *robot;
+      if (mayGiveUp(*robot)) return *robot;
+    }
+    const std::vector<Vertex>& goals = answer_.ground->instance.goals();
+    for (const std::uint32_t robot : refusal.robots) {
+      const auto comer = std::find(goals.begin(), goals.end(), starts_[robot]);
+      const auto other = static_cast<std::uint32_t>(comer - goals.begin());
+      if (comer != goals.end() && mayGiveUp(other)) return other;
     }
     return std::nullopt;
+  }
+
+  bool mayGiveUp(std::uint32_t robot) const {
+    return takes_part_[robot] && answer_.faults[robot] == GoalFault::kNone;
   }
 
   void requireValid(const Plan& plan) const {
@@ -192,7 +243,7 @@ class FleetRun {
     trimToArrival(plan);
     requireValid(plan);
     ExecutionGraph joined = concatenate(question_.graph, question_.cut, plan);
-    rings_ = edgesOf(joined);
+    rings_ = rotationsOf(joined);
     const auto rings = static_cast<std::uint32_t>(rings_.size());
     if (answer_.execution && answer_.rings <= rings) return plan;
     answer_.message.clear();
@@ -219,37 +270,13 @@ class FleetRun {
   const FleetQuestion& question_;
   const Deadline& deadline_;
   std::vector<Vertex> starts_;
+  std::vector<bool> takes_part_;  // of those that join, too; plans made anew
   FleetAnswer answer_;
-  std::vector<std::vector<Edge>> rings_;  // of the last plan
-  bool is_cut_ = false;                   // whether the ground lacks some of their edges
+  std::vector<Rotation> rings_;  // of the last plan
+  bool is_cut_ = false;          // whether the ground lacks some of their edges
 };
 
 }  // namespace
-
-FleetGround::FleetGround(std::shared_ptr<const Grid> open, const std::vector<Vertex>& starts,
-                         const std::vector<Vertex>& goals, std::vector<bool> is_blocked,
-                         const MotionTimes& times, const ReplanBudget& budget)
-    : instance(Instance::fromVertices(std::move(open), starts, goals)),
-      blocked(std::move(is_blocked)),
-      replanner(instance, times, budget) {}
-
-std::shared_ptr<const Grid> openPart(const std::shared_ptr<const Grid>& grid,
-                                     const std::vector<bool>& blocked,
-                                     const std::vector<Edge>& removed) {
-  const bool is_whole = std::find(blocked.begin(), blocked.end(), true) == blocked.end();
-  if (is_whole && removed.empty()) return grid;
-  const auto is_removed = [&](Vertex v, Vertex next) {
-    return std::find(removed.begin(), removed.end(), Edge(v, next)) != removed.end();
-  };
-  std::vector<Edge> edges;
-  for (Vertex v = 0; v < grid->size(); ++v) {
-    if (blocked[v]) continue;
-    for (const Vertex next : grid->graph().neighbours(v)) {
-      if (v < next && !blocked[next] && !is_removed(v, next)) edges.emplace_back(v, next);
-    }
-  }
-  return std::make_shared<const Grid>(grid->width(), grid->height(), cellsOf(*grid), edges);
-}
 
 FleetAnswer answerFleet(const FleetQuestion& question, const Planner& planner,
                         const PlanRequest& request, const Deadline& deadline) {

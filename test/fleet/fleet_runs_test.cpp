@@ -1,8 +1,10 @@
 // Fleets of discs with everything that goes wrong, drawn from a seed.
 
 #include <algorithm>
+#include <cstdlib>
 #include <iostream>
 #include <set>
+#include <string>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -102,8 +104,7 @@ struct Drive {
   Scene scene;
   FleetWorld world;
   std::set<std::string> dead;
-  bool closes = false;    // cells stay closed
-  bool is_stuck = false;  // an open fault: some stand for good, and the fleet says so
+  bool closes = false;  // cells stay closed
 };
 
 /// Whoever has a way has come to its goal, nobody but the dead dropped out, and no robot was ever
@@ -112,7 +113,7 @@ void expectWell(Drive& run) {
   FleetWorld& world = run.world;
   ASSERT_TRUE(world.run(6000)) << world.fleet_->trouble();
   EXPECT_TRUE(world.checker_.isClear()) << world.checker_.closest();
-  EXPECT_EQ(world.fleet_->trouble().empty(), !run.is_stuck) << world.fleet_->trouble();
+  EXPECT_EQ(world.fleet_->trouble(), "");
   const std::vector<FleetRobotStatus> all = world.fleet_->status(world.now_);
   for (std::uint32_t i = 0; i < all.size(); ++i) {
     if (run.dead.count(world.fleet_->id(i)) > 0) continue;
@@ -121,9 +122,15 @@ void expectWell(Drive& run) {
     if (all[i].fault != GoalFault::kNone) {
       EXPECT_TRUE(!run.dead.empty() || run.closes) << world.fleet_->id(i);
     } else {
-      EXPECT_TRUE(all[i].arrived || run.is_stuck) << world.fleet_->id(i);
+      EXPECT_TRUE(all[i].arrived) << world.fleet_->id(i);
     }
   }
+}
+
+/// SPLIT_MAPF_FIRST_SEED, for runs that nobody has seen; 0 without it.
+std::uint64_t firstSeed() {
+  const char* wished = std::getenv("SPLIT_MAPF_FIRST_SEED");
+  return wished != nullptr ? std::stoull(wished) : 0;
 }
 
 /// Runs what is to happen for each seed. @param more  so many times as many in a long run.
@@ -131,7 +138,9 @@ template <typename What>
 void forSeeds(std::uint64_t seeds, const What& what, std::uint64_t more = 20,
               Scene (*scene)(std::uint64_t) = sceneOf) {
   const std::uint64_t all = test::draws(seeds, more * seeds);
-  for (std::uint64_t seed = 0; seed < all && !::testing::Test::HasFatalFailure(); ++seed) {
+  const std::uint64_t first = firstSeed();
+  for (std::uint64_t seed = first; seed < first + all && !::testing::Test::HasFatalFailure();
+       ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Drive run(seed, scene(seed));
     what(run);
@@ -237,16 +246,33 @@ TEST(FleetRuns, HaveNoCollisionsAndNoDeadlocks) {
 
 TEST(FleetRuns, HaveNoCollisionsAndNoDeadlocksOnPlanningGraphs) {
   Count count;
-  // Open: in one of these 1800 runs a robot that cannot reach its goal is sent to the nearest free
-  // vertex, from which the others part it by a rotation only; a farther one would do.
-  constexpr std::uint64_t kRingStays = 822;
-  const auto all_wrong = [&](Drive& run) {
-    run.is_stuck = run.seed == kRingStays;
-    everythingGoesWrong(run, count);
-  };
-  forSeeds(30, all_wrong, 60, planningSceneOf);
+  forSeeds(
+      30, [&](Drive& run) { everythingGoesWrong(run, count); }, 60, planningSceneOf);
   show(count);
   EXPECT_GT(count.anew, test::draws(10U));
+}
+
+TEST(FleetRuns, SendARobotWithoutAWayFromWhereOthersCouldOnlyRotate) {
+  // The nearest place for it lies on a square behind a lane, in which the others then cannot part.
+  Count count;
+  Drive run(822, planningSceneOf(822));
+  everythingGoesWrong(run, count);
+}
+
+TEST(FleetRuns, GiveUpAGoalWhereTheOthersCouldOnlyRotateForGood) {
+  // Cells that closed have left robots that have to change places a square and a lane to it.
+  for (const std::uint64_t seed : {100551, 101751}) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Count count;
+    Drive run(seed, planningSceneOf(seed));
+    everythingGoesWrong(run, count);
+  }
+}
+
+TEST(FleetRuns, GiveUpAGoalForWhichAnotherCouldNotMakeRoom) {
+  Count count;
+  Drive run(300367, planningSceneOf(300367));
+  everythingGoesWrong(run, count);
 }
 
 TEST(FleetRuns, AreTakenUpAgainOnPlanningGraphs) { forSeeds(20, takeUpAgain, 20, planningSceneOf); }
