@@ -9,6 +9,7 @@
 #include "search/departures.h"
 #include "search/neighbourhood_search.h"
 #include "search/replan_singly.h"
+#include "search/reservation_table.h"
 #include "search/ring_breaking.h"
 #include "split_mapf/core/plan.h"
 #include "split_mapf/core/validate.h"
@@ -18,11 +19,14 @@ namespace {
 
 // Of what is left of the budget, for robots one at a time: the greatest gains come first.
 constexpr std::uint64_t kSinglyOneIn = 3;
-// What is done with each visit beside the searches (orders, tables, checks, forecasts), and that
-// states of long plans cost more, takes as long as so many states; to take rings out so many more.
-constexpr std::uint64_t kStatesAVisit = 3;
+// What is done with each visit beside the searches (orders, checks, forecasts) takes as long as so
+// many states; to take rings out so many more.
+constexpr std::uint64_t kStatesAVisit = 2;
 constexpr std::uint64_t kStatesAVisitOfRings = 1;
-// But no more than one in so many of the budget: of long plans something must be left to search.
+// So many visits that come to the table of paths, or go, take as long as a state.
+constexpr std::uint64_t kChangesAState = 3;
+// Visits cost no more than one in so many of the budget: of long plans something must be left to
+// search.
 constexpr std::uint64_t kVisitsOneIn = 2;
 constexpr std::uint64_t kVisitsOfRingsOneIn = 4;
 // A map is one of lanes when of its vertices more than one in so many have no third way.
@@ -58,7 +62,7 @@ class RestRun {
     answer_.rings = ringsAhead();
     budget_ = expansions;
     const Precedence order = restBehind(graph_, cut_);
-    spent_ += std::min(kStatesAVisit * order.size(), budget_ / kVisitsOneIn);
+    spent_ += std::min(costOfVisits(order.size()), budget_ / kVisitsOneIn);
     const bool has_rings = breaksRings() && !findRings(order).empty();
     Plan rest = soonest(order, has_rings);
     const Instance instance = instanceOf(rest);
@@ -90,10 +94,10 @@ class RestRun {
     return rest;
   }
 
-  /// Those that are left when a half of the budget is spent stay for the next replan.
+  /// Those that are there when half of what was left is spent stay for the next replan.
   Plan takeOutRings(const Instance& instance, Plan rest) {
     rest = breakRings(instance, std::move(rest), Departures(departures_), deadline_,
-                      &answer_.expansions, budget_ / 2);
+                      &answer_.expansions, left() / 2);
     const Precedence order(rest, whole_.graph().size());
     spent_ += std::min(kStatesAVisitOfRings * order.size(), budget_ / kVisitsOfRingsOneIn);
     return soonest(order, !findRings(order).empty());
@@ -140,15 +144,19 @@ class RestRun {
     effort.headway = headway_;
     const bool avoids_rings = breaksRings() && headway_ == 0;
     effort.avoids_rings = avoids_rings;
+    ReservationTable table(instance.graph().size(), rest, headway_);
+    effort.table = &table;
+    changes_before_ = table.changes();
     const std::uint64_t until = spent() + left() / kSinglyOneIn;
     effort.go_on = [&, until](std::uint64_t more, std::uint64_t) {
       answer_.expansions += more;
+      chargeChanges(table);
       return spent() < until;
     };
     rest = replanSingly(instance, std::move(rest), effort, withinWhatIsLeft());
     const std::uint64_t before = answer_.expansions;
-    NeighbourhoodSearch search(instance, std::move(rest), kForever - 1, seed, departures, nullptr,
-                               headway_);
+    NeighbourhoodSearch search(instance, std::move(table), std::move(rest), kForever - 1, seed,
+                               departures);
     const auto makes_no_ring = [&](const std::vector<PathChange>& changes) {
       if (!avoids_rings) return true;
       return std::none_of(changes.begin(), changes.end(), [&](const PathChange& change) {
@@ -163,13 +171,24 @@ class RestRun {
     while (delay > 0 && left() > 0 && !deadline_.expired()) {
       delay -= static_cast<std::uint64_t>(search.tryOne(capped, makes_no_ring));
       answer_.expansions = before + search.expansions();
+      chargeChanges(search.table());
       spent_ += look;
     }
     return search.plan();
   }
 
+  /// With a table of them.
+  static std::uint64_t costOfVisits(std::uint64_t visits) {
+    return kStatesAVisit * visits + visits / kChangesAState;
+  }
+
+  /// Searches that expand few states still take paths out of the table and put them back.
+  void chargeChanges(const ReservationTable& table) {
+    spent_on_changes_ = (table.changes() - changes_before_) / kChangesAState;
+  }
+
   /// In states.
-  std::uint64_t spent() const { return spent_ + answer_.expansions; }
+  std::uint64_t spent() const { return spent_ + spent_on_changes_ + answer_.expansions; }
 
   std::uint64_t left() const { return budget_ - std::min(budget_, spent()); }
 
@@ -231,6 +250,8 @@ class RestRun {
   std::vector<std::uint32_t> departures_;  // [steps] behind the cut
   std::uint64_t budget_ = 0;               // [states]
   std::uint64_t spent_ = 0;                // beside the searches' own
+  std::uint64_t changes_before_ = 0;       // of the table, when it was made
+  std::uint64_t spent_on_changes_ = 0;     // since then
   std::uint32_t headway_ = 0;              // [steps] that the plans of the rest keep
 };
 

@@ -12,6 +12,18 @@ NeighbourhoodSearch::NeighbourhoodSearch(const Instance& instance, Plan plan,
                                          std::uint32_t latest_arrival, std::uint64_t seed,
                                          const Departures& departures, const Reservations* reserved,
                                          std::uint32_t headway)
+    : NeighbourhoodSearch{instance,
+                          tableOf(instance.graph().size(), plan, reserved, headway),
+                          std::move(plan),
+                          latest_arrival,
+                          seed,
+                          departures,
+                          reserved != nullptr ? reserved->paths().size() : 0} {}
+
+NeighbourhoodSearch::NeighbourhoodSearch(const Instance& instance, ReservationTable table,
+                                         Plan plan, std::uint32_t latest_arrival,
+                                         std::uint64_t seed, const Departures& departures,
+                                         std::size_t reserved)
     : instance_(instance),
       departures_(departures),
       soonest_(departures.soonestArrivals(instance)),
@@ -19,14 +31,9 @@ NeighbourhoodSearch::NeighbourhoodSearch(const Instance& instance, Plan plan,
       picker_(instance, seed, departures),
       engine_(seed),
       search_(instance.graph()),
-      chain_(instance, latest_arrival, departures,
-             reserved != nullptr ? reserved->paths().size() : 0),
+      chain_(instance, latest_arrival, departures, reserved),
       plan_(std::move(plan)),
-      table_(instance.graph().size(), plan_, headway) {
-  if (reserved == nullptr) return;
-  std::uint32_t number = instance.robots();
-  for (const Path& path : reserved->paths()) table_.insert(number++, path);
-}
+      table_(std::move(table)) {}
 
 void NeighbourhoodSearch::replace(std::uint32_t robot, Path path) {
   table_.remove(robot, plan_.paths[robot]);

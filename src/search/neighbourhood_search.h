@@ -38,6 +38,11 @@ class NeighbourhoodSearch {
   NeighbourhoodSearch(const Instance& instance, Plan plan, std::uint32_t latest_arrival,
                       std::uint64_t seed, const Departures& departures = {},
                       const Reservations* reserved = nullptr, std::uint32_t headway = 0);
+  /// The same with a table that is known already: of the plan, and of so many paths behind it that
+  /// are reserved.
+  NeighbourhoodSearch(const Instance& instance, ReservationTable table, Plan plan,
+                      std::uint32_t latest_arrival, std::uint64_t seed,
+                      const Departures& departures = {}, std::size_t reserved = 0);
 
   /// Tries one chain or neighbourhood; returns how many steps it gained: less than none where it
   /// may become worse. @param temperature  mean of what it may lose, drawn as in simulated

@@ -17,7 +17,12 @@ void PathTable::insert(std::uint32_t robot, Vertex v, std::uint32_t begin, std::
   auto place = stays.end();
   while (place != stays.begin() && begin < (place - 1)->begin) --place;
   stays.insert(place, {begin, heldUntil(end), robot, next});
-  timelines_[v].clear();
+  noteChange(v);
+}
+
+void PathTable::erase(std::uint32_t robot, Vertex v, std::uint32_t begin) {
+  stays_[v].erase(find(robot, v, begin));
+  noteChange(v);
 }
 
 /// The robot's visit to `v` that begins at `begin`.
@@ -34,11 +39,21 @@ void PathTable::insert(std::uint32_t robot, const Path& path) {
   });
 }
 
+void PathTable::insertAll(const std::vector<Path>& paths) {
+  std::vector<std::uint32_t> visits(stays_.size(), 0);
+  for (const Path& path : paths) {
+    forEachStay(path, [&](Vertex v, std::uint32_t, std::uint32_t, Vertex) { ++visits[v]; });
+  }
+  for (Vertex v = 0; v < stays_.size(); ++v) {
+    // One may come before another goes.
+    if (visits[v] > 0) stays_[v].reserve(visits[v] + std::size_t{1});
+  }
+  for (std::uint32_t robot = 0; robot < paths.size(); ++robot) insert(robot, paths[robot]);
+}
+
 void PathTable::remove(std::uint32_t robot, const Path& path) {
-  forEachStay(path, [&](Vertex v, std::uint32_t begin, std::uint32_t, Vertex) {
-    stays_[v].erase(find(robot, v, begin));
-    timelines_[v].clear();
-  });
+  forEachStay(
+      path, [&](Vertex v, std::uint32_t begin, std::uint32_t, Vertex) { erase(robot, v, begin); });
 }
 
 void PathTable::removeTail(std::uint32_t robot, const Path& path, std::uint32_t from) {
@@ -47,10 +62,9 @@ void PathTable::removeTail(std::uint32_t robot, const Path& path, std::uint32_t 
   const std::uint32_t end = kept->end == kForever ? kForever : kept->end - headway_;
   kept->end = heldUntil(from + 1);
   kept->next = kNoVertex;
-  timelines_[at].clear();
+  noteChange(at);
   forEachStay(path, end, [&](Vertex v, std::uint32_t begin, std::uint32_t, Vertex) {
-    stays_[v].erase(find(robot, v, begin));
-    timelines_[v].clear();
+    erase(robot, v, begin);
   });
 }
 
@@ -62,7 +76,7 @@ void PathTable::insertTail(std::uint32_t robot, const Path& path, std::uint32_t 
   while (end < size && path[end] == at) ++end;
   kept->end = end < size ? heldUntil(end) : kForever;
   kept->next = end < size ? path[end] : kNoVertex;
-  timelines_[at].clear();
+  noteChange(at);
   forEachStay(path, end, [&](Vertex v, std::uint32_t begin, std::uint32_t stay_end, Vertex next) {
     insert(robot, v, begin, stay_end, next);
   });
@@ -72,14 +86,14 @@ void PathTable::removeHead(std::uint32_t robot, const Path& path, std::uint32_t 
   for (std::uint32_t begin = 0; begin <= from; ++begin) {
     if (begin >= path.size()) break;
     if (begin > 0 && path[begin] == path[begin - 1]) continue;
-    stays_[path[begin]].erase(find(robot, path[begin], begin));
-    timelines_[path[begin]].clear();
+    erase(robot, path[begin], begin);
   }
 }
 
 const Timeline& PathTable::timeline(Vertex v) const {
   static const Timeline undisturbed = {{0, kForever, 0, 0}};
   if (stays_[v].empty()) return undisturbed;
+  if (timelines_.empty()) timelines_.resize(stays_.size());
   if (timelines_[v].empty()) builder_.build(stays_[v], kNobody, timelines_[v]);
   return timelines_[v];
 }

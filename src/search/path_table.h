@@ -11,18 +11,21 @@ namespace split_mapf {
 
 /// Who is where and when: for each vertex the visits to it, ordered by their begin. Visits of
 /// different robots may overlap, as plans under construction have conflicts. Memory: one entry a
-/// visit, whatever the horizon, and as much again for timelines. Not thread-safe.
+/// visit, whatever the horizon, and as much again for timelines once one is asked for. Not
+/// thread-safe.
 /// With a headway robots hold a vertex for so many steps more after they have left it: visits end
 /// so much later, and nobody follows another any closer.
 class PathTable {
  public:
   explicit PathTable(std::uint32_t vertices, std::uint32_t headway = 0)
-      : headway_(headway), stays_(vertices), timelines_(vertices) {}
+      : headway_(headway), stays_(vertices) {}
 
   std::uint32_t headway() const { return headway_; }
 
   /// @pre the robot has no path in the table; the path ends at its arrival.
   void insert(std::uint32_t robot, const Path& path);
+  /// Of robots 0, 1, ...: as insert() of each, with room for all. @pre the table is empty.
+  void insertAll(const std::vector<Path>& paths);
   /// @pre `path` is what was inserted for the robot.
   void remove(std::uint32_t robot, const Path& path);
   /// Removes where the robot is after step `from`: its visit of then ends with this step, and leads
@@ -32,6 +35,9 @@ class PathTable {
   void insertTail(std::uint32_t robot, const Path& path, std::uint32_t from);
   /// Removes what removeTail() left.
   void removeHead(std::uint32_t robot, const Path& path, std::uint32_t from);
+
+  /// How many visits came and went so far: what changes of the table cost.
+  std::uint64_t changes() const { return changes_; }
 
   const std::vector<Stay>& at(Vertex v) const { return stays_[v]; }
   /// The timeline that all visits at `v` make. Kept until a path through `v` comes or goes: a
@@ -44,6 +50,11 @@ class PathTable {
  private:
   std::vector<Stay>::iterator find(std::uint32_t robot, Vertex v, std::uint32_t begin);
   void insert(std::uint32_t robot, Vertex v, std::uint32_t begin, std::uint32_t end, Vertex next);
+  void erase(std::uint32_t robot, Vertex v, std::uint32_t begin);
+  void noteChange(Vertex v) {
+    ++changes_;
+    if (!timelines_.empty()) timelines_[v].clear();
+  }
   /// The end of a visit that is known to the table.
   std::uint32_t heldUntil(std::uint32_t end) const {
     return end == kForever ? kForever : end + headway_;
@@ -51,7 +62,9 @@ class PathTable {
 
   std::uint32_t headway_;
   std::vector<std::vector<Stay>> stays_;
-  mutable std::vector<Timeline> timelines_;  // empty: to be built
+  std::uint64_t changes_ = 0;
+  // By vertex, none before one is asked for; an empty one is to be built.
+  mutable std::vector<Timeline> timelines_;
   mutable TimelineBuilder builder_;
 };
 

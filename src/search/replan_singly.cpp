@@ -42,8 +42,12 @@ class BatchReplanning {
         effort_(effort),
         deadline_(deadline),
         team_(effort.threads.atMost(kMostThreads)),
-        tables_(team_.threads(), tableOf(instance, plan_, effort)),
-        searches_(tables_.size(), {GapSearch(instance.graph())}) {}
+        own_(effort.table != nullptr
+                 ? ReservationTable(0)
+                 : tableOf(instance.graph().size(), plan_, effort.reserved, effort.headway)),
+        table_(effort.table != nullptr ? *effort.table : own_),
+        others_(team_.threads() - 1, table_),
+        searches_(team_.threads(), {GapSearch(instance.graph())}) {}
 
   Plan run() {
     for (std::uint64_t pass = 0; pass < effort_.passes; ++pass) {
@@ -61,13 +65,8 @@ class BatchReplanning {
   }
 
  private:
-  static ReservationTable tableOf(const Instance& instance, const Plan& plan,
-                                  const ReplanEffort& effort) {
-    ReservationTable table(instance.graph().size(), plan, effort.headway);
-    if (effort.reserved == nullptr) return table;
-    std::uint32_t number = instance.robots();
-    for (const Path& path : effort.reserved->paths()) table.insert(number++, path);
-    return table;
+  ReservationTable& tableFor(std::uint32_t member) {
+    return member == 0 ? table_ : others_[member - 1];
   }
 
   struct Change {
@@ -100,7 +99,7 @@ class BatchReplanning {
                   [&](std::uint32_t i, std::uint32_t member) {
                     const std::uint32_t robot = batch_[i];
                     const Path& path = plan_.paths[robot];
-                    ReservationTable& table = tables_[member];
+                    ReservationTable& table = tableFor(member);
                     table.remove(robot, path);
                     GapQuery query;
                     query.start = instance_.start(robot);
@@ -124,10 +123,9 @@ class BatchReplanning {
   bool take(std::uint32_t robot, Path path) {
     if (path.empty()) return true;
     const Path& own = plan_.paths[robot];
-    ReservationTable& table = tables_.front();
-    if (!table.exchange(robot, plan_.paths[robot], path)) return false;
-    if (effort_.avoids_rings && closesRing(table, own)) {
-      table.exchange(robot, plan_.paths[robot], path);
+    if (!table_.exchange(robot, plan_.paths[robot], path)) return false;
+    if (effort_.avoids_rings && closesRing(table_, own)) {
+      table_.exchange(robot, plan_.paths[robot], path);
       return true;
     }
     gained_ += path.size() - own.size();  // they have changed places
@@ -136,9 +134,9 @@ class BatchReplanning {
   }
 
   void tellTheOthers() {
-    team_.forEach(static_cast<std::uint32_t>(tables_.size() - 1),
+    team_.forEach(static_cast<std::uint32_t>(others_.size()),
                   [&](std::uint32_t other, std::uint32_t) {
-                    ReservationTable& table = tables_[other + 1];
+                    ReservationTable& table = others_[other];
                     for (const Change& change : changes_) table.remove(change.robot, change.before);
                     for (const Change& change : changes_) {
                       table.insert(change.robot, plan_.paths[change.robot]);
@@ -151,7 +149,9 @@ class BatchReplanning {
   const ReplanEffort& effort_;
   const Deadline& deadline_;
   ThreadTeam team_;
-  std::vector<ReservationTable> tables_;    // of everybody, one a thread
+  ReservationTable own_;                    // empty if one is given
+  ReservationTable& table_;                 // of everybody
+  std::vector<ReservationTable> others_;    // likewise, one for each thread but the first
   std::vector<Apart<GapSearch>> searches_;  // one a thread
   BatchSize batch_size_;
   std::deque<std::uint32_t> queue_;  // next first

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "search/departures.h"
+#include "search/reservation_table.h"
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"
@@ -23,6 +24,9 @@ struct ReplanEffort {
   const Reservations* reserved = nullptr;  ///< likewise; null: nothing is reserved
   std::uint32_t headway = 0;               ///< likewise, see ReservationTable
   bool avoids_rings = false;               ///< takes no path that closes one, see closesRing()
+  /// Of the plan and what is reserved, with the headway; becomes that of the plan that is returned.
+  /// Null: one is made.
+  ReservationTable* table = nullptr;
 };
 
 /// Plans robots of a valid plan anew, one at a time among the paths of all others: each gets the
@@ -32,7 +36,7 @@ struct ReplanEffort {
 /// deadline ends the passes. The next robots of a pass, up to 32, are searched for side by side;
 /// who meets one of its batch on that one's new path is searched for again in the next batch. Cost:
 /// a GapSearch a delayed robot and pass, and few more; a table of the plan for each thread.
-/// @pre the plan is valid.
+/// @pre the plan is valid, and its paths end at their arrivals where a table is given.
 Plan replanSingly(const Instance& instance, Plan plan, const ReplanEffort& effort,
                   const Deadline& deadline);
 

@@ -12,7 +12,27 @@ ReservationTable::ReservationTable(std::uint32_t vertices, const Plan& plan, std
   std::size_t steps = 0;
   for (const Path& path : plan.paths) steps = std::max(steps, path.size());
   coverSteps(steps + headway);
-  for (std::uint32_t i = 0; i < plan.paths.size(); ++i) insert(i, plan.paths[i]);
+  paths_.insertAll(plan.paths);
+  for (Vertex v = 0; v < vertices; ++v) {
+    for (const Stay& stay : at(v)) hold(v, stay.begin, stay.end);
+    if (headway == 0 || at(v).empty()) continue;
+    for (std::uint32_t word = 0; word < words_; ++word) showHeld(v, word);
+  }
+}
+
+/// Sets the bits of steps begin .. end-1 of who is at `v`, or has just left.
+void ReservationTable::hold(Vertex v, std::uint32_t begin, std::uint32_t end) {
+  std::uint64_t* const row = (headway() > 0 ? held_ : bits_).data() + std::size_t{v} * words_;
+  const std::uint32_t last = std::min(end, 64 * words_) - 1;
+  const std::uint64_t from = ~std::uint64_t{0} << (begin % 64);
+  const std::uint64_t to = ~std::uint64_t{0} >> (63 - last % 64);
+  if (begin / 64 == last / 64) {
+    row[begin / 64] |= from & to;
+    return;
+  }
+  row[begin / 64] |= from;
+  for (std::uint32_t word = begin / 64 + 1; word < last / 64; ++word) row[word] = ~std::uint64_t{0};
+  row[last / 64] |= to;
 }
 
 void ReservationTable::insert(std::uint32_t robot, const Path& path) {
@@ -150,6 +170,15 @@ const Stay* ReservationTable::oncoming(Vertex from, Vertex to, std::uint32_t t) 
                                            [t](const Stay& stay) { return stay.end < t; });
   const bool comes = before != stays.end() && before->end == t && before->next == from;
   return comes ? &*before : nullptr;
+}
+
+ReservationTable tableOf(std::uint32_t vertices, const Plan& plan, const Reservations* reserved,
+                         std::uint32_t headway) {
+  ReservationTable table(vertices, plan, headway);
+  if (reserved == nullptr) return table;
+  auto number = static_cast<std::uint32_t>(plan.paths.size());
+  for (const Path& path : reserved->paths()) table.insert(number++, path);
+  return table;
 }
 
 }  // namespace split_mapf

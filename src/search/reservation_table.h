@@ -5,6 +5,7 @@
 
 #include "search/path_table.h"
 #include "split_mapf/core/plan.h"
+#include "split_mapf/core/reservations.h"
 
 namespace split_mapf {
 
@@ -52,6 +53,8 @@ class ReservationTable {
 
   std::uint32_t headway() const { return paths_.headway(); }
   const PathTable& paths() const { return paths_; }
+  /// As PathTable's.
+  std::uint64_t changes() const { return paths_.changes(); }
   const std::vector<Stay>& at(Vertex v) const { return paths_.at(v); }
   /// Bit i: who is at `v` at step 64 * word + i is in the way of somebody, or in somebody's. Any
   /// word may be asked for.
@@ -84,6 +87,7 @@ class ReservationTable {
   void toggleHeld(Vertex v, std::uint32_t t);
   void showHeld(Vertex v, std::uint32_t word);
   void coverSteps(std::size_t steps);
+  void hold(Vertex v, std::uint32_t begin, std::uint32_t end);
   void flip(const Path& path, std::uint32_t from);
   void flipSteps(const Path& path, std::uint32_t from, std::uint32_t to);
 
@@ -92,5 +96,9 @@ class ReservationTable {
   std::vector<std::uint64_t> bits_;
   std::vector<std::uint64_t> held_;  // of these who is there or has just left; with a headway only
 };
+
+/// Of a plan, and behind its robots of the paths that are reserved; null: none.
+ReservationTable tableOf(std::uint32_t vertices, const Plan& plan, const Reservations* reserved,
+                         std::uint32_t headway);
 
 }  // namespace split_mapf

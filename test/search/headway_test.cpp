@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "search/departures.h"
@@ -96,6 +97,37 @@ TEST(Headway, IsKeptByEverySearchThatImprovesAPlan) {
   }
   EXPECT_GT(cases, 15U);
   EXPECT_GT(gained, 20 * cases);
+}
+
+TEST(Headway, IsKeptByATableThatOneSearchHandsToTheNext) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    RandomEngine engine(seed);
+    const std::optional<Case> drawn = drawCase(seed, 10, engine);
+    if (!drawn) continue;
+    const std::uint32_t vertices = drawn->grid->size();
+    const Instance instance = test::instanceOf(drawn->grid, drawn->plan);
+    const Departures departures(drawn->steps);
+    ReservationTable table(vertices, drawn->plan, 1);
+    ReplanEffort effort;
+    effort.passes = 3;
+    effort.departures = departures;
+    effort.headway = 1;
+    const Plan alone = replanSingly(instance, drawn->plan, effort, {});
+    effort.table = &table;
+    const Plan better = replanSingly(instance, drawn->plan, effort, {});
+    EXPECT_EQ(better.paths, alone.paths);
+    test::expectSame(table, ReservationTable(vertices, better, 1), vertices);
+    NeighbourhoodSearch own(instance, better, kForever - 1, seed, departures, nullptr, 1);
+    NeighbourhoodSearch given(instance, std::move(table), better, kForever - 1, seed, departures);
+    for (int i = 0; i < 50; ++i) {
+      own.tryOne({}, [](const std::vector<PathChange>&) { return true; });
+      given.tryOne({}, [](const std::vector<PathChange>&) { return true; });
+    }
+    ASSERT_EQ(given.plan().paths, own.plan().paths);
+    test::expectSame(given.table(), ReservationTable(vertices, given.plan(), 1), vertices);
+    if (HasFatalFailure()) return;
+  }
 }
 
 /// By brute force: where the robot may be step by step.
