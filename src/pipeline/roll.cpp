@@ -95,6 +95,7 @@ class RollRun {
     }
     report_.expansions += answer.expansions;
     report_.escorts += answer.escorts;
+    if (t > options_.warmup) resting_steps_ += answer.resting;
     return answer;
   }
 
@@ -171,6 +172,7 @@ class RollRun {
       const double all = static_cast<double>(report_.steps - options_.warmup) *
                          static_cast<double>(question_.robots.size());
       report_.delayed = static_cast<double>(delayed_steps_) / all;
+      report_.resting = static_cast<double>(resting_steps_) / all;
     }
     countTurns();
     report_.goals_reached = service_.size();
@@ -252,6 +254,7 @@ class RollRun {
   std::uint64_t busy_steps_ = 0;
   std::uint64_t standing_ = 0;
   std::uint64_t delayed_steps_ = 0;
+  std::uint64_t resting_steps_ = 0;
   double cpu_ms_ = 0;
 };
 

@@ -11,6 +11,7 @@
 
 #include "parallel/thread_budget.h"
 #include "parallel/thread_team.h"
+#include "pipeline/rolling/admission.h"
 #include "pipeline/rolling/escorts.h"
 #include "pipeline/rolling/improver.h"
 #include "pipeline/rolling/progress.h"
@@ -25,10 +26,12 @@ namespace {
 
 using namespace rolling;
 
-// Windows without a gain after which a robot is led on. An escort closes a region to all others, so
-// where more than two cells in five are taken, and everybody stands for long, it comes later.
+// Windows without a gain after which a robot is led on. An escort closes cells to all others, so
+// where more than two cells in five are taken, and everybody stands for long, it comes later: but
+// for robots that have been after their goal for so many windows.
 constexpr std::uint32_t kPatience = 3;
 constexpr std::uint32_t kCrowdedPatience = 10;
+constexpr std::uint32_t kOldWindows = 20;
 // Where a crowd flows, what is known is better than anything made anew.
 constexpr std::uint32_t kSlowWindows = 2;
 // Who gains nothing counts for more: once more every so many steps.
@@ -86,11 +89,12 @@ class Rolling::Run {
     escorts_.goOn(question, steps, closed_);
     is_crowded_ = 5 * question.robots.size() > std::size_t{2} * graph_.size();
     patience_ = is_crowded_ ? kCrowdedPatience : kPatience;
+    orderRobots(question);
     readItineraries(question);
+    admit(question);
     if (!stuck_.empty()) asked_ = question;
     barEscorts();
     bindRobots(question);
-    orderRobots(question);
     window_.tracks.resize(question.robots.size());
     base_.make(starts_, order_, window_);
     improver_knows_ = false;
@@ -126,6 +130,7 @@ class Rolling::Run {
     }
     answer.cost /= kStepCost;
     answer.escorts = escorts_.size();
+    answer.resting = resting_;
     const std::optional<std::string> wrong = checker_.violation(answer.paths);
     if (wrong) throw std::logic_error("a window is not valid: " + *wrong);
     return answer;
@@ -158,21 +163,36 @@ class Rolling::Run {
     findSlopes(question);
     cut_off_.clear();
     stuck_.clear();
+    waiting_ = 0;
+    resting_ = 0;
     is_slow_ = false;
     wanted_.clear();
     window_.itineraries.assign(question.robots.size(), Itinerary());
-    for (std::uint32_t robot = 0; robot < question.robots.size(); ++robot) {
+    std::uint32_t going = 0;
+    for (const std::uint32_t robot : order_) {
       const RollingRobot& asked = question.robots[robot];
       Itinerary& itinerary = window_.itineraries[robot];
       const std::size_t held = held_.size();
       addGoals(asked, robot, itinerary);
-      if (itinerary.count > 0 && asked.may_move) {
+      if (itinerary.count == 0 || !asked.may_move) {
+        progress_.forget(asked.id);
+      } else if (going++ < admission_.limit()) {
         weighDelay(asked, robot, *held_[held], itinerary);
       } else {
-        progress_.forget(asked.id);
+        progress_.rest(asked.id, now_);
+        itinerary.count = 0;  // as one that is idle
+        ++resting_;
       }
     }
+    std::sort(cut_off_.begin(), cut_off_.end());
     held_before_.clear();
+  }
+
+  /// Sees to how many of a crowd go from the next window on.
+  void admit(const RollingQuestion& question) {
+    if (!is_crowded_) return admission_.open();
+    const auto robots = static_cast<std::uint32_t>(question.robots.size());
+    admission_.note(robots, waiting_, now_, options_.window);
   }
 
   void weighDelay(const RollingRobot& asked, std::uint32_t robot, const Slope& slope,
@@ -183,7 +203,10 @@ class Rolling::Run {
     itinerary.weight = 1 + std::min(kMostWeight, stuck / kWeightEvery);
     if (is_excused) return;
     is_slow_ = is_slow_ || stuck >= kSlowWindows * options_.window;
-    if (stuck < patience_ * options_.window) return;
+    if (stuck < kPatience * options_.window) return;
+    ++waiting_;
+    const bool is_old = asked.age >= kOldWindows * options_.window;
+    if (!is_old && stuck < patience_ * options_.window) return;
     stuck_.push_back({robot, stuck, &slope, progress_.best(asked.id)});
   }
 
@@ -217,7 +240,7 @@ class Rolling::Run {
   /// Finds escorts for those that are stuck, and makes the window anew if there are any.
   void addEscorts() {
     const std::uint32_t before = escorts_.size();
-    escorts_.add(*grid_, graph_, asked_, closed_, stuck_, now_, patience_ * options_.window);
+    escorts_.add(graph_, asked_, closed_, stuck_, now_, patience_ * options_.window);
     stuck_.clear();
     if (escorts_.size() == before) return;
     barEscorts();
@@ -291,6 +314,9 @@ class Rolling::Run {
   std::vector<bool> barred_;  // by vertex: closed, or the region of an escort
   std::vector<WindowStart> starts_;
   FleetChecker checker_;
+  Admission admission_;
+  std::uint32_t waiting_ = 0;  // robots that have gained nothing for kPatience
+  std::uint32_t resting_ = 0;
   bool is_crowded_ = false;
   bool is_slow_ = false;                // somebody has gained nothing for kSlowWindows
   std::uint32_t patience_ = kPatience;  // [windows]

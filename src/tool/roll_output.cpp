@@ -69,6 +69,7 @@ void writeRollJson(std::ostream& out, const RollGround& ground, const RollOption
   field("longest_wait", report.longest_wait);
   field("waiting", report.waiting);
   field("delayed", report.delayed);
+  field("resting", report.resting);
   field("turns", report.turns);
   field("step_cpu_ms", {{"mean", report.step_cpu_ms_mean}, {"max", report.step_cpu_ms_max}});
   field("valid_step_ms", {{"max", report.valid_ms_max}});

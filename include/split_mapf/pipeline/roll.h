@@ -57,6 +57,7 @@ struct RollReport {
   std::uint32_t longest_wait = 0;
   double waiting = 0;  ///< share of the steps of robots with goals in which they stood
   double delayed = 0;  ///< share of the robots' time in which they were delayed
+  double resting = 0;  ///< of the same, in which they had goals and rested, as a crowd had jammed
   double turns = 0;    ///< turns a move
   double step_cpu_ms_mean = 0;
   double step_cpu_ms_max = 0;

@@ -57,6 +57,7 @@ struct RollingAnswer {
   std::uint64_t cost = 0;              ///< steps lost against robots alone, over all
   std::uint64_t expansions = 0;        ///< states of all searches, but of escorts
   std::uint32_t escorts = 0;           ///< under way for robots that had gained nothing
+  std::uint32_t resting = 0;           ///< robots with goals that rest, as a crowd has jammed
 };
 
 /// Plans the next steps of a fleet whose goals come one by one. begin() takes the fleet as it is
@@ -66,8 +67,9 @@ struct RollingAnswer {
 /// Groups of 2 to 8 of them, a delayed one and those in its way, are planned anew together among
 /// the others, by searches over (vertex, step, goals reached). A robot that comes no nearer to its
 /// goal for three windows, or ten where robots take more than two fifths of the vertices, is led on
-/// by a complete solver with whoever is around it; steps in which it stands because it is bound to
-/// do not count.
+/// by a search that is complete for it, whoever is around making room; steps in which it stands
+/// because it is bound to do not count. Where such a crowd jams, only some of the robots go, by
+/// priority and age, and the others rest as if they were idle, until it flows again.
 ///
 /// At any thread count the same questions and numbers of expansions give the same answers; a clock
 /// chooses only how often improve() is called. Every answer has passed a check of its own.
@@ -76,8 +78,8 @@ struct RollingAnswer {
 /// need now. Not thread-safe. Source: windows after Li et al. (RHCR, AAAI 2021); the rest is ours.
 /// Cost: begin() O(robots * window), and a breadth-first search for each goal that is new, by all
 /// threads; the first improve() the same for goals behind it, and where a robot is stuck at most
-/// two searches of 400,000 expansions and one more window, in a crowd two; memory about 250 bytes a
-/// vertex, and 109 a thread.
+/// two searches that visit 100,000 vertices each and one more window, in a crowd two; memory about
+/// 250 bytes a vertex, and 109 a thread.
 class Rolling {
  public:
   /// @throws OptionError for a window or a number of threads out of range; InputError where a

@@ -4,134 +4,150 @@
 #include <utility>
 #include <vector>
 
-#include "split/region_grids.h"
-#include "split_mapf/core/instance.h"
-#include "split_mapf/solver/lacam.h"
+#include "pipeline/rolling/leader_search.h"
 
 namespace split_mapf::rolling {
 namespace {
 
-constexpr std::uint64_t kEscortExpansions = 400000;
+// Steps that a leader gains where its goal is not nearer, the region that it is led through at
+// first, and the vertices that are visited for one escort, about.
+constexpr std::uint32_t kGain = 32;
+constexpr std::uint32_t kFirstRadius = 16;
+constexpr std::uint64_t kVisits = 100000;
 
-/// One region, tried.
+/// One leader, led.
 class EscortTry {
  public:
-  explicit EscortTry(const EscortQuestion& question) : question_(question) {
-    findRegion(question.radius);
+  explicit EscortTry(const EscortQuestion& question)
+      : question_(question), standing_(question.graph->size(), false) {
+    for (const RollingRobot& robot : question.fleet->robots) standing_[robot.prefix.back()] = true;
   }
 
   std::optional<Escort> run() {
-    if (!findMembers()) return std::nullopt;
-    const std::optional<Plan> plan = solve();
-    if (!plan) return std::nullopt;
-    Escort escort;
-    escort.leader = leader().id;
-    escort.target = target_;
-    escort.region = region_;
-    for (std::size_t i = 0; i < members_.size(); ++i) {
-      const RollingRobot& robot = question_.fleet->robots[members_[i]];
-      Path path = robot.prefix;
-      path.resize(begin_ + std::size_t{1}, path.back());
-      for (std::size_t t = 1; t < plan->paths[i].size(); ++t) {
-        path.push_back(region_[plan->paths[i][t]]);
-      }
-      escort.members.push_back(robot.id);
-      escort.paths.push_back(std::move(path));
-    }
-    endAtTarget(escort);
-    return escort;
+    const std::optional<std::vector<LeaderMove>> moves = findMoves();
+    if (!moves || !findMembers(*moves)) return std::nullopt;
+    return escortOf(*moves);
   }
 
  private:
-  /// Cuts all paths where the leader is there.
-  void endAtTarget(Escort& escort) const {
-    const auto own = std::find(escort.members.begin(), escort.members.end(), escort.leader);
-    const Path& way = escort.paths[static_cast<std::size_t>(own - escort.members.begin())];
-    const auto steps = std::find(way.begin(), way.end(), target_) - way.begin();
-    for (Path& path : escort.paths) {
-      path.resize(static_cast<std::size_t>(steps) + 1, path.back());
+  const RollingRobot& leader() const { return question_.fleet->robots[question_.leader]; }
+
+  /// In a region that reaches further and further.
+  std::optional<std::vector<LeaderMove>> findMoves() const {
+    LeaderQuestion search;
+    search.graph = question_.graph;
+    search.occupied = &standing_;
+    search.leader = leader().prefix.back();
+    search.slope = question_.slope;
+    search.left = question_.slope->distance(*question_.graph, search.leader, 0xffffffffU);
+    search.aim = question_.best - std::min(question_.best, kGain);
+    if (search.left <= search.aim) return std::nullopt;
+    search.visits = kVisits;
+    std::size_t before = 0;
+    for (std::uint32_t radius = kFirstRadius;; radius *= 2) {
+      std::size_t count = 0;
+      const std::vector<bool> inside = regionAround(radius, count);
+      if (count == before) return std::nullopt;
+      before = count;
+      search.inside = &inside;
+      LeaderSearch leader_search(search);
+      std::optional<std::vector<LeaderMove>> moves = leader_search.find();
+      if (moves || leader_search.visits() >= search.visits) return moves;
+      search.visits -= leader_search.visits();
     }
   }
 
-  const RollingRobot& leader() const { return question_.fleet->robots[question_.leader]; }
-
-  /// Vertices at most so many steps from the leader, in order.
-  void findRegion(std::uint32_t radius) {
+  /// Vertices at most so many steps from the leader.
+  std::vector<bool> regionAround(std::uint32_t radius, std::size_t& count) const {
     const MoveGraph& graph = *question_.graph;
-    std::vector<std::pair<Vertex, std::uint32_t>> queue = {{leader().prefix.back(), 0}};
-    inside_.assign(graph.size(), false);
-    inside_[leader().prefix.back()] = true;
+    const Vertex begin = leader().prefix.back();
+    std::vector<std::pair<Vertex, std::uint32_t>> queue = {{begin, 0}};
+    std::vector<bool> inside(graph.size(), false);
+    inside[begin] = true;
     for (std::size_t head = 0; head < queue.size(); ++head) {
       const auto [v, steps] = queue[head];
       if (steps == radius) continue;
       for (const Vertex u : graph[v].next) {
-        if (inside_[u] || (*question_.closed)[u]) continue;
-        inside_[u] = true;
+        if (inside[u] || (*question_.closed)[u]) continue;
+        inside[u] = true;
         queue.emplace_back(u, steps + 1);
       }
     }
-    for (const auto& entry : queue) region_.push_back(entry.first);
-    std::sort(region_.begin(), region_.end());
+    count = queue.size();
+    return inside;
   }
 
-  /// @return false if somebody is bound to cross the region's border, or is not to move.
-  bool findMembers() {
-    begin_ = 0;
-    for (std::uint32_t robot = 0; robot < question_.fleet->robots.size(); ++robot) {
-      const Path& prefix = question_.fleet->robots[robot].prefix;
-      const auto in =
-          std::count_if(prefix.begin(), prefix.end(), [this](Vertex v) { return inside_[v]; });
-      if (in == 0) continue;
-      if (static_cast<std::size_t>(in) < prefix.size()) return false;
-      if (!question_.fleet->robots[robot].may_move) return false;
-      begin_ = std::max(begin_, static_cast<std::uint32_t>(prefix.size()) - 1);
-      members_.push_back(robot);
+  /// The region is what is touched, and whatever those that are there are bound to.
+  /// @return false if that is not theirs alone.
+  bool findMembers(const std::vector<LeaderMove>& moves) {
+    std::vector<bool> touched(question_.graph->size(), false);
+    touched[leader().prefix.back()] = true;
+    for (const LeaderMove& move : moves) touched[move.from] = touched[move.to] = true;
+    const std::vector<RollingRobot>& robots = question_.fleet->robots;
+    std::vector<bool> is_in(robots.size(), false);
+    for (bool grows = true; grows;) {
+      grows = false;
+      for (std::uint32_t robot = 0; robot < robots.size(); ++robot) {
+        const Path& prefix = robots[robot].prefix;
+        if (is_in[robot]) continue;
+        if (std::none_of(prefix.begin(), prefix.end(), [&](Vertex v) { return touched[v]; })) {
+          continue;
+        }
+        if (!robots[robot].may_move) return false;
+        is_in[robot] = true;
+        grows = grows || prefix.size() > 1;
+        for (const Vertex v : prefix) {
+          if ((*question_.closed)[v]) return false;
+          touched[v] = true;
+        }
+        begin_ = std::max(begin_, static_cast<std::uint32_t>(prefix.size()) - 1);
+      }
     }
-    return findTarget();
-  }
-
-  /// The last vertex of the region on the leader's way. @return whether it has never been so near.
-  bool findTarget() {
-    const Slope& slope = *question_.slope;
-    target_ = leader().prefix.back();
-    std::uint32_t left = slope.distance(*question_.graph, target_, 0xffffffffU);
-    for (std::uint32_t bits = slope[target_] & 0xfU; bits != 0; bits = slope[target_] & 0xfU) {
-      const Vertex to =
-          (*question_.graph)[target_].next[static_cast<std::size_t>(__builtin_ctz(bits))];
-      if (!inside_[to]) break;
-      target_ = to;
-      --left;
+    for (std::uint32_t robot = 0; robot < robots.size(); ++robot) {
+      if (is_in[robot]) members_.push_back(robot);
     }
-    return left < question_.best;
-  }
-
-  std::uint32_t numberOf(Vertex v) const {
-    return static_cast<std::uint32_t>(std::lower_bound(region_.begin(), region_.end(), v) -
-                                      region_.begin());
-  }
-
-  std::optional<Plan> solve() const {
-    Problem problem{planningGraphOf(*question_.grid, region_), {}, {}};
-    for (const std::uint32_t robot : members_) {
-      const Vertex at = question_.fleet->robots[robot].prefix.back();
-      Vertex goal = at == target_ ? leader().prefix.back() : at;
-      if (robot == question_.leader) goal = target_;
-      problem.starts.push_back(numberOf(at));
-      problem.goals.push_back(numberOf(goal));
+    for (Vertex v = 0; v < touched.size(); ++v) {
+      if (touched[v]) region_.push_back(v);
     }
-    const Instance instance(std::move(problem));
-    SolverOptions options;
-    options.objective = Objective::kSumOfCosts;
-    options.expansion_limit = kEscortExpansions;
-    return LacamSolver(options).solve(instance, Deadline()).plan;
+    return true;
+  }
+
+  /// Each move as soon as its robot has come and the one before it has left.
+  Escort escortOf(const std::vector<LeaderMove>& moves) const {
+    Escort escort;
+    escort.leader = leader().id;
+    escort.target = moves.back().to;
+    escort.region = region_;
+    std::vector<std::uint32_t> who(question_.graph->size(), kNoRobot);
+    std::vector<std::size_t> left(question_.graph->size(), begin_);  // in this step at the latest
+    for (std::uint32_t i = 0; i < members_.size(); ++i) {
+      const RollingRobot& robot = question_.fleet->robots[members_[i]];
+      escort.members.push_back(robot.id);
+      escort.paths.push_back(robot.prefix);
+      escort.paths.back().resize(begin_ + std::size_t{1}, robot.prefix.back());
+      who[robot.prefix.back()] = i;
+    }
+    std::size_t last = 0;
+    for (const LeaderMove& move : moves) {
+      const std::uint32_t robot = who[move.from];
+      Path& path = escort.paths[robot];
+      last = std::max(path.size(), left[move.to]);
+      path.resize(last, move.from);
+      path.push_back(move.to);
+      left[move.from] = last;
+      who[move.to] = robot;
+      who[move.from] = kNoRobot;
+    }
+    // The last move is the leader's; what others do behind it is not of use.
+    for (Path& path : escort.paths) path.resize(last + 1, path.back());
+    return escort;
   }
 
   const EscortQuestion& question_;
-  std::vector<bool> inside_;
+  std::vector<bool> standing_;          // by vertex: somebody, once nobody is bound
   std::vector<Vertex> region_;          // in order
   std::vector<std::uint32_t> members_;  // indices in the fleet
-  Vertex target_ = kNoVertex;
-  std::uint32_t begin_ = 0;  // [steps] when all members are free
+  std::uint32_t begin_ = 0;             // [steps] when all members are free
 };
 
 }  // namespace

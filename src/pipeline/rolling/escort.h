@@ -5,14 +5,13 @@
 #include <vector>
 
 #include "pipeline/rolling/slopes.h"
-#include "split_mapf/core/grid.h"
 #include "split_mapf/pipeline/rolling.h"
 
 namespace split_mapf::rolling {
 
-/// A robot that had gained nothing is led on: a complete solver moves it and everybody around to
-/// where it is nearer to its goal than ever. Until then they keep to that plan, and nobody else
-/// comes into the region.
+/// A robot that had gained nothing is led on, to where it is nearer to its goal than ever, by a
+/// plan for it and everybody who has to make room. Until then they keep to that plan, and nobody
+/// else comes where they go.
 struct Escort {
   std::uint32_t leader = 0;   ///< id
   Vertex target = kNoVertex;  ///< of the leader; the escort ends there
@@ -23,19 +22,18 @@ struct Escort {
 
 /// What an escort may rely on.
 struct EscortQuestion {
-  const Grid* grid = nullptr;
   const MoveGraph* graph = nullptr;
   const RollingQuestion* fleet = nullptr;
   const std::vector<bool>* closed = nullptr;  ///< by vertex: walls, and regions of other escorts
   std::uint32_t leader = 0;                   ///< index in the fleet
   const Slope* slope = nullptr;               ///< to the leader's goal
   std::uint32_t best = 0;                     ///< how near it has been [steps]
-  std::uint32_t radius = 0;                   ///< [steps] the region reaches so far
 };
 
-/// Finds an escort in the region around a robot. @return nothing when there is none, or not yet: a
-/// robot is bound to leave the region, or to come in. Source: LaCAM (Okumura, AAAI 2023) for the
-/// region. Cost: O(cells + robots), and a search of kEscortExpansions at most.
+/// Finds an escort. Its region is what the plan touches, and what its members are bound to beside.
+/// @return nothing when there is none, none was found within the vertices that may be visited, or a
+/// member is bound to come into the region of another one. Cost: O(cells + robots), and a
+/// LeaderSearch in regions around the leader that reach twice as far each time.
 std::optional<Escort> findEscort(const EscortQuestion& question);
 
 }  // namespace split_mapf::rolling

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kMostSearches = 2;  // for new escorts at a time
 // Others stay out of regions: a new one only while these are less than one cell in so many.
-constexpr std::size_t kLeastShare = 32;
+constexpr std::size_t kLeastShare = 8;
 
 using IndexById = std::unordered_map<std::uint32_t, const RollingRobot*>;
 
@@ -64,11 +64,14 @@ void Escorts::goOn(const RollingQuestion& fleet, std::uint32_t steps,
   escorts_.erase(over, escorts_.end());
 }
 
-void Escorts::add(const Grid& grid, const MoveGraph& graph, const RollingQuestion& fleet,
+void Escorts::add(const MoveGraph& graph, const RollingQuestion& fleet,
                   const std::vector<bool>& closed, std::vector<StuckRobot> stuck, std::uint64_t now,
                   std::uint32_t patience) {
-  std::stable_sort(stuck.begin(), stuck.end(),
-                   [](const StuckRobot& a, const StuckRobot& b) { return a.steps > b.steps; });
+  std::stable_sort(stuck.begin(), stuck.end(), [&](const StuckRobot& a, const StuckRobot& b) {
+    const std::uint32_t one = fleet.robots[a.index].age;
+    const std::uint32_t other = fleet.robots[b.index].age;
+    return one != other ? one > other : a.steps > b.steps;
+  });
   std::size_t searches = 0;
   std::size_t led = 0;  // cells in regions
   for (const Escort& escort : escorts_) led += escort.region.size();
@@ -78,30 +81,27 @@ void Escorts::add(const Grid& grid, const MoveGraph& graph, const RollingQuestio
   for (const StuckRobot& robot : stuck) {
     if (searches == kMostSearches || led * kLeastShare > graph.size()) return;
     const std::uint32_t id = fleet.robots[robot.index].id;
-    NextTry& next_try = next_try_[id];
+    std::uint64_t& next_try = next_try_[id];
     // One that has gained since begins anew.
-    if (next_try.step + robot.steps < now + patience) next_try = NextTry();
+    if (next_try + robot.steps < now + patience) next_try = 0;
     // Who is in a region already, or has just been looked at, waits.
-    if (now < next_try.step || barred[fleet.robots[robot.index].prefix.back()]) continue;
+    if (now < next_try || barred[fleet.robots[robot.index].prefix.back()]) continue;
     EscortQuestion question;
-    question.grid = &grid;
     question.graph = &graph;
     question.fleet = &fleet;
     question.closed = &barred;
     question.leader = robot.index;
     question.slope = robot.slope;
     question.best = robot.best;
-    question.radius = next_try.radius;
     ++searches;
     std::optional<Escort> escort = findEscort(question);
     if (escort) {
       led += escort->region.size();
       for (const Vertex v : escort->region) barred[v] = true;
       escorts_.push_back(std::move(*escort));
-      next_try = NextTry();
+      next_try = 0;
     } else {
-      next_try.step = now + patience;
-      next_try.radius = std::min(2 * next_try.radius, graph.size());
+      next_try = now + patience;
     }
   }
 }

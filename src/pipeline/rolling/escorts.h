@@ -24,12 +24,10 @@ class Escorts {
   /// leader has come to its target, a member is elsewhere, or a wall or somebody else is in the
   /// region.
   void goOn(const RollingQuestion& fleet, std::uint32_t steps, const std::vector<bool>& closed);
-  /// Finds escorts for those that are stuck, the longest first. A robot for which there is none is
-  /// looked at again `patience` steps later, with a region that reaches twice as far, until it is
-  /// all that can be reached. Cost: a few searches at most.
-  void add(const Grid& grid, const MoveGraph& graph, const RollingQuestion& fleet,
-           const std::vector<bool>& closed, std::vector<StuckRobot> stuck, std::uint64_t now,
-           std::uint32_t patience);
+  /// Finds escorts for those that are stuck, who is longest after its goal first. A robot for which
+  /// there is none is looked at again `patience` steps later. Cost: a few searches at most.
+  void add(const MoveGraph& graph, const RollingQuestion& fleet, const std::vector<bool>& closed,
+           std::vector<StuckRobot> stuck, std::uint64_t now, std::uint32_t patience);
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(escorts_.size()); }
   const std::vector<Escort>& all() const { return escorts_; }
@@ -38,13 +36,7 @@ class Escorts {
 
  private:
   std::vector<Escort> escorts_;
-  struct NextTry {
-    std::uint64_t step = 0;
-    std::uint32_t radius = kFirstRadius;
-  };
-  static constexpr std::uint32_t kFirstRadius = 4;
-
-  std::unordered_map<std::uint32_t, NextTry> next_try_;  // by id
+  std::unordered_map<std::uint32_t, std::uint64_t> next_try_;  // step, by id
 };
 
 }  // namespace split_mapf::rolling
