@@ -214,13 +214,15 @@ class Rolling::Run {
   void addGoals(const RollingRobot& asked, std::uint32_t robot, Itinerary& itinerary) {
     Vertex from = asked.prefix.front();
     std::uint32_t left = window_.steps;
+    const auto most =
+        static_cast<std::uint32_t>(std::min<std::size_t>(kMostGoals, asked.goals.size()));
     for (const Vertex goal : asked.goals) {
-      if (itinerary.count == kMostGoals) return;
-      if (itinerary.count > 0 && !slopes_.has(goal)) {
+      std::shared_ptr<const Slope> slope =
+          itinerary.count == 0 ? slopes_.find(goal) : slopes_.known(goal);
+      if (!slope) {
         wanted_.push_back(goal);  // there is time for it once a window is there
         return;
       }
-      std::shared_ptr<const Slope> slope = slopes_.find(goal);
       const bool is_barred = closed_[goal] && from != goal;
       if (is_barred || !slope->reachable(from)) {
         if (itinerary.count == 0) cut_off_.push_back(robot);
@@ -228,11 +230,13 @@ class Rolling::Run {
       }
       itinerary.goals[itinerary.count] = goal;
       itinerary.slopes[itinerary.count++] = slope->data();
-      left -= itinerary.count == 1
-                  ? std::min(left, progress_.note(graph_, asked.id, from, goal, *slope, now_))
-                  : slope->distance(graph_, from, left);
+      if (itinerary.count == 1) {
+        left -= std::min(left, progress_.note(graph_, asked.id, from, goal, *slope, now_));
+      } else if (itinerary.count < most) {
+        left -= slope->distance(graph_, from, left);
+      }
       held_.push_back(std::move(slope));
-      if (left == 0) return;
+      if (left == 0 || itinerary.count == most) return;
       from = goal;
     }
   }

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <string>
-#include <unordered_map>
-#include <unordered_set>
+#include <utility>
+#include <vector>
 
 #include "split_mapf/core/collision.h"
 #include "split_mapf/core/error.h"
@@ -37,14 +37,23 @@ void requirePath(const RollingRobot& robot, const Grid& grid, const MoveGraph& g
   }
 }
 
+void requireDifferent(const std::vector<RollingRobot>& robots) {
+  std::vector<std::uint32_t> ids;
+  ids.reserve(robots.size());
+  for (const RollingRobot& robot : robots) ids.push_back(robot.id);
+  std::sort(ids.begin(), ids.end());
+  const auto twice = std::adjacent_find(ids.begin(), ids.end());
+  if (twice == ids.end()) return;
+  throw InputError("robot " + std::to_string(*twice) + ": is there twice");
+}
+
 }  // namespace
 
 void requireSound(const RollingQuestion& question, const Grid& grid, const MoveGraph& graph,
                   std::uint32_t window) {
-  std::unordered_set<std::uint32_t> ids;
+  requireDifferent(question.robots);
   std::uint32_t last = 0;  // step of the longest prefix
   for (const RollingRobot& robot : question.robots) {
-    if (!ids.insert(robot.id).second) throw InputError(nameOf(robot) + ": is there twice");
     requirePath(robot, grid, graph, window);
     last = std::max(last, static_cast<std::uint32_t>(robot.prefix.size()) - 1);
   }
@@ -54,15 +63,14 @@ void requireSound(const RollingQuestion& question, const Grid& grid, const MoveG
                        std::to_string(grid.size()));
     }
   }
-  std::unordered_map<Vertex, const RollingRobot*> here;
-  std::unordered_map<Vertex, const RollingRobot*> before;
+  std::vector<const RollingRobot*> here(graph.size(), nullptr);
+  std::vector<const RollingRobot*> before(last > 0 ? graph.size() : 0, nullptr);
   for (std::uint32_t t = 0; t <= last; ++t) {
-    here.clear();
     for (const RollingRobot& robot : question.robots) {
       const Vertex at = positionAt(robot.prefix, t);
-      const auto [other, is_new] = here.emplace(at, &robot);
-      if (!is_new) {
-        throw InputError(nameOf(*other->second) + " and " + nameOf(robot) + " are both at " +
+      const RollingRobot* other = std::exchange(here[at], &robot);
+      if (other != nullptr) {
+        throw InputError(nameOf(*other) + " and " + nameOf(robot) + " are both at " +
                          toString(grid.cellOf(at)) + " at step " + std::to_string(t) +
                          " if they stop at the ends of their prefixes");
       }
@@ -71,14 +79,18 @@ void requireSound(const RollingQuestion& question, const Grid& grid, const MoveG
       if (t == 0) break;
       const Vertex from = positionAt(robot.prefix, t - 1);
       const Vertex to = positionAt(robot.prefix, t);
-      const auto other = before.find(to);
-      if (from == to || other == before.end()) continue;
-      if (positionAt(other->second->prefix, t) != from) continue;
-      throw InputError(nameOf(*other->second) + " and " + nameOf(robot) + " swap " +
+      const RollingRobot* other = before[to];
+      if (from == to || other == nullptr || positionAt(other->prefix, t) != from) continue;
+      throw InputError(nameOf(*other) + " and " + nameOf(robot) + " swap " +
                        toString(grid.cellOf(from)) + " and " + toString(grid.cellOf(to)) +
                        " in step " + std::to_string(t));
     }
+    if (t == last) break;
     before.swap(here);
+    if (t == 0) continue;
+    for (const RollingRobot& robot : question.robots) {
+      here[positionAt(robot.prefix, t - 1)] = nullptr;
+    }
   }
 }
 

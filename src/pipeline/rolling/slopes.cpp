@@ -43,6 +43,13 @@ std::shared_ptr<const Slope> SlopeCache::find(Vertex goal) {
   return entry.slope;
 }
 
+std::shared_ptr<const Slope> SlopeCache::known(Vertex goal) {
+  const auto entry = entries_.find(goal);
+  if (entry == entries_.end()) return nullptr;
+  entry->second.used = ++uses_;
+  return entry->second.slope;
+}
+
 void SlopeCache::findAll(const std::vector<Vertex>& goals, ThreadTeam& team,
                          std::vector<std::shared_ptr<const Slope>>& found) {
   std::vector<Vertex> missing;

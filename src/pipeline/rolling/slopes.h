@@ -44,6 +44,8 @@ class SlopeCache {
   /// @return whether that was so.
   bool close(const std::vector<bool>& closed);
   std::shared_ptr<const Slope> find(Vertex goal);
+  /// Null when it is not there.
+  std::shared_ptr<const Slope> known(Vertex goal);
   /// The same for many, searched by all threads of a team and put behind `found` in their order.
   void findAll(const std::vector<Vertex>& goals, ThreadTeam& team,
                std::vector<std::shared_ptr<const Slope>>& found);
