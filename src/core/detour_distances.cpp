@@ -13,6 +13,11 @@ constexpr std::uint32_t kMostSides = 60000;
 constexpr std::size_t kDirections = 4;
 // Vertices around the goal that are searched from there.
 constexpr std::size_t kAroundGoal = 200;
+// Vertices that the first distance may cost, a step that it has at least, and besides: more are
+// needed in caves, and where start and goal lie in a strip so narrow that no way leads straight
+// through it. Later ones are not bound by it: a search from the goal would cost more by then.
+constexpr std::size_t kExpandedAStep = 8;
+constexpr std::size_t kExpandedBesides = 1000;
 
 struct Choice {
   Cell cell;
@@ -84,8 +89,13 @@ std::uint8_t& DistanceTable::leastDetour(Vertex v) const {
 std::uint32_t DistanceTable::searchDetours(Vertex v) const {
   DetourSearch& search = *detours_;
   const Cell cell = search.guide.grid->cellOf(v);
+  // Only the first one tells what the map is like.
+  const std::size_t most = search.expanded > 0
+                               ? std::size_t{graph_->size()}
+                               : kExpandedAStep * search.rowsAndColumns(cell) + kExpandedBesides;
   while (!isKnown(v)) {
-    if (std::max(leastDetour(v), search.floorOf(cell)) > DetourSearch::kMostDetour) {
+    const std::uint8_t detour = std::max(leastDetour(v), search.floorOf(cell));
+    if (detour > DetourSearch::kMostDetour || search.expanded > most) {
       leaveDetours();
       return (*this)(v);
     }
@@ -95,7 +105,7 @@ std::uint32_t DistanceTable::searchDetours(Vertex v) const {
     }
     search.frames.clear();
     search.frames.push_back({v, cell, 0});
-    while (!search.frames.empty()) tryNextMove();
+    while (!search.frames.empty() && search.expanded <= most) tryNextMove();
   }
   return (*this)(v);
 }
