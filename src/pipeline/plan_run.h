@@ -74,6 +74,8 @@ class PlanRun {
   void interrupt();
   /// Values of what `auto` calls: lean ones where memory is short or the plan is to be seen soon.
   std::map<std::string, std::string> valuesOf(const std::string& solver) const;
+  /// Whether the distances of all robots at once fit into memory.
+  bool hasRoomForAllTables() const;
   /// What `auto` chose gets all the time but what the last resort is likely to need.
   void keepTimeForLastResort(double expected_sec);
 

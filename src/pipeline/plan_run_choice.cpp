@@ -18,6 +18,11 @@ constexpr double kLargestReserve = 0.3;
 constexpr double kLeastReserveSec = 0.5;
 // Of a solver that is called for a plan which is only looked at: half a second or so.
 constexpr std::uint64_t kTurnOfOthers = 2000000;
+// Whoever looks at all robots at once keeps a table of distances for each, which takes so much for
+// a step of its shortest way where it is found on demand. Nobody is called whose tables would take
+// more than the most: the system would end the process.
+constexpr std::uint64_t kTableBytesAStep = 250;
+constexpr std::uint64_t kMostBytesOfTables = std::uint64_t{8} << 30U;
 
 }  // namespace
 
@@ -58,7 +63,7 @@ void PlanRun::choose() {
   request_.solver = choice.solver;
   request_.solver_options.values = valuesOf(choice.solver);
   request_.solver_options.expansion_limit = choice.turn;
-  keepTimeForLastResort(choice.last_resort_sec);
+  if (hasRoomForAllTables()) keepTimeForLastResort(choice.last_resort_sec);
   choice_ = " (chosen: " + choice.reason + ")";
 }
 
@@ -82,6 +87,12 @@ bool PlanRun::refuseStepTables() {
     if (request_.solver == last_resort_) report_.message += " without options of its own";
   }
   return true;
+}
+
+bool PlanRun::hasRoomForAllTables() const {
+  if (!features_ || !instance_.isBounded()) return true;
+  const std::uint64_t all = std::uint64_t{2} * features_->robots * features_->cells;
+  return std::min(all, kTableBytesAStep * features_->sum_bound) <= kMostBytesOfTables;
 }
 
 void PlanRun::keepTimeForLastResort(double expected_sec) {
@@ -115,6 +126,7 @@ bool PlanRun::callAnother(const RepairLoop::Outcome& outcome) {
     Others others{piece_solver_.otherSolvers(), last_resort_};
     others.is_late = late;
     others.without_tables = step_table_.isTooLarge();
+    others.one_by_one = !hasRoomForAllTables();
     others_ = lastCalledFirst(traits_, std::move(others));
     solve_deadline_ = deadline_;
   }

@@ -1,9 +1,13 @@
 #include "pipeline/step_table.h"
 
+#include "search/crowd.h"
+
 namespace split_mapf {
 namespace {
 
 constexpr std::uint64_t kMostMebibytes = 192;
+// Of large teams: solvers that keep none keep a table of distances a robot, which takes more.
+constexpr std::uint64_t kMostOfTeamMebibytes = 512;
 // Several of them would be kept.
 constexpr std::uint64_t kMostAskedForMebibytes = 2048;
 
@@ -11,10 +15,11 @@ constexpr std::uint64_t kMostAskedForMebibytes = 2048;
 
 StepTable::StepTable(const Instance& instance, std::uint32_t steps) {
   const std::uint64_t words = steps / 64 + 1;
+  most_mebibytes_ = instance.robots() >= kCrowd ? kMostOfTeamMebibytes : kMostMebibytes;
   mebibytes_ = instance.graph().size() * words * sizeof(std::uint64_t) >> 20U;
 }
 
-bool StepTable::isTooLarge() const { return mebibytes_ > kMostMebibytes; }
+bool StepTable::isTooLarge() const { return mebibytes_ > most_mebibytes_; }
 
 bool StepTable::isImpossible() const { return mebibytes_ > kMostAskedForMebibytes; }
 

@@ -26,6 +26,7 @@ class StepTable {
 
  private:
   std::uint64_t mebibytes_ = 0;
+  std::uint64_t most_mebibytes_ = 0;
 };
 
 }  // namespace split_mapf

@@ -73,6 +73,14 @@ std::uint64_t turnOf(const Candidate& choice, const InstanceFeatures& features) 
   return static_cast<std::uint64_t>(std::max(kLeastTurn, expansions));
 }
 
+/// A large team where there is room. There the model expects of searches that resolve conflicts far
+/// less than they take (1000x1000 cells, 4500 robots, `ecbs`: 2 s instead of 65), and of those that
+/// place robots about what they take.
+bool isWideTeam(const InstanceFeatures& features) {
+  return features.robots >= kCrowd && kCellsOfCrowd * features.robots < features.cells &&
+         features.head_on < kOftenHeadOn;
+}
+
 double secondsOf(const std::string& solver, const std::vector<Candidate>& methods) {
   for (const Candidate& method : methods) {
     if (method.solver == solver) return method.seconds;
@@ -98,6 +106,18 @@ std::vector<Candidate> candidates(const AutoQuestion& question, const CostModel&
     result.push_back({std::move(method), processor_sec, traits.loose_plans});
   }
   return result;
+}
+
+/// Leaves those that place robots one after another, where others are not to be trusted with them.
+void keepPlacing(const AutoQuestion& question, std::vector<Candidate>& methods) {
+  if (!isWideTeam(question.features)) return;
+  const auto places = [&](const Candidate& method) {
+    return keepsStepTable(question.solvers, method.solver);
+  };
+  if (std::none_of(methods.begin(), methods.end(), places)) return;
+  methods.erase(std::remove_if(methods.begin(), methods.end(),
+                               [&](const Candidate& method) { return !places(method); }),
+                methods.end());
 }
 
 /// Whether the pieces of a split do better with loose plans was not measured.
@@ -135,11 +155,12 @@ AutoChoice chooseMethod(const AutoQuestion& question, const CostModel& model) {
   if (methods.empty()) {
     return {question.solvers.begin()->first, "nothing is known of it", 0, 0};
   }
+  const std::string last_resort = lastResort(question.solvers, question.objective);
+  const double last_resort_sec = secondsOf(last_resort, methods);
+  keepPlacing(question, methods);
   const bool loose = startsLoose(question);
   const double least = std::min_element(methods.begin(), methods.end(), costsLess)->excess;
   const double most = (loose ? kComparableLoose : kComparable) * (1 + least) - 1;
-  const std::string last_resort = lastResort(question.solvers, question.objective);
-  const double last_resort_sec = secondsOf(last_resort, methods);
   methods.erase(std::remove_if(methods.begin(), methods.end(),
                                [most](const MethodEstimate& m) { return m.excess > most; }),
                 methods.end());

@@ -1,6 +1,7 @@
 #include "portfolio/solver_choice.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace split_mapf {
 namespace {
@@ -45,9 +46,12 @@ std::vector<std::string> lastCalledFirst(const SolverTable& solvers, Others othe
   const auto is_other = [&](const std::string& name) { return name != others.last_resort; };
   const auto last_resort = std::stable_partition(names.begin(), names.end(), is_other);
   if (others.is_late) names.erase(names.begin(), last_resort);
+  const auto keeps = [&](const std::string& name) { return keepsStepTable(solvers, name); };
   if (others.without_tables) {
-    const auto keeps = [&](const std::string& name) { return keepsStepTable(solvers, name); };
     names.erase(std::remove_if(names.begin(), names.end(), keeps), names.end());
+  }
+  if (others.one_by_one) {  // as those do that keep one
+    names.erase(std::remove_if(names.begin(), names.end(), std::not_fn(keeps)), names.end());
   }
   return std::move(others.names);
 }

@@ -21,6 +21,7 @@ struct Others {
   std::string last_resort;         ///< it ends with a plan or a proof
   bool is_late = false;            ///< there is time for the last resort only
   bool without_tables = false;     ///< there is no memory for tables of a bit a cell and step
+  bool one_by_one = false;         ///< there is none for the distances of all robots at once
 };
 /// Them, who is called first at the end. That is the last resort: it ends with a plan or a proof,
 /// which the others would leave open, and in time.

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/step_table.h"
 #include "split_mapf/pipeline/planner.h"
 #include "support/fake_solver.h"
 
@@ -62,6 +63,13 @@ TEST(Crowd, SawItsFirstPlanOnlyOnceItWasPolished) {
   EXPECT_EQ(valuesOfLastResort(4100), (Values{{"polish", "0"}}));
   EXPECT_EQ(valuesOfLastResort(100), Values());
   EXPECT_EQ(valuesOfLastResort(4100, false), Values()) << "a good plan is worth its polish";
+}
+
+TEST(Crowd, WasSentToASolverOfManyTablesToSaveOneOfSteps) {
+  constexpr std::uint32_t kSteps = 400000;  // of 4900 cells: 233 MiB
+  EXPECT_TRUE(StepTable(resting(4095), kSteps).isTooLarge());
+  EXPECT_FALSE(StepTable(resting(4096), kSteps).isTooLarge());
+  EXPECT_TRUE(StepTable(resting(4096), 3 * kSteps).isTooLarge());
 }
 
 }  // namespace

@@ -54,6 +54,31 @@ TEST(AutoChoice, ACrowdsTurnWasTimeThatAnotherNeeded) {
   EXPECT_EQ(turn(5000, 1000000), turn(4000, 1000000)) << "there is room for all";
 }
 
+TEST(AutoChoice, LargeTeamsOnWideMapsWaitedForASearchThatTookFarMoreThanExpected) {
+  const CostModel model(R"(methods:
+  - {solver: ecbs, objective: makespan, log_seconds: [0, 0, 0, 0, 0, 0, 0],
+     log_excess: [-9, 0, 0, 0, 0, 0, 0]}
+  - {solver: conflict_optimizer, objective: makespan, log_seconds: [2, 0, 0, 0, 0, 0, 0],
+     log_excess: [-9, 0, 0, 0, 0, 0, 0]}
+)");
+  AutoQuestion asked = question(5000);
+  asked.solvers = builtinSolvers().traits();
+  asked.features.cells = 1000000;
+  EXPECT_EQ(chooseMethod(asked, model).solver, "conflict_optimizer");
+  AutoQuestion other = asked;
+  other.features.robots = 4000;
+  EXPECT_EQ(chooseMethod(other, model).solver, "ecbs") << "no large team";
+  other = asked;
+  other.features.cells = 40000;
+  EXPECT_EQ(chooseMethod(other, model).solver, "ecbs") << "a crowd";
+  other = asked;
+  other.features.head_on = 1;
+  EXPECT_EQ(chooseMethod(other, model).solver, "ecbs") << "who is placed would jam";
+  other = asked;
+  other.solvers.erase("conflict_optimizer");
+  EXPECT_EQ(chooseMethod(other, model).solver, "ecbs") << "nobody places robots";
+}
+
 TEST(AutoChoice, ALoosePlanBeforeRefinementWhereRobotsMeetHeadOn) {
   const CostModel model(R"(methods:
   - {solver: tight, objective: sum_of_costs, log_seconds: [-0.4, 0, 0, 0, 0, 0, 1],

@@ -44,6 +44,14 @@ TEST(SolverChoice, GoesByTraitsAndRankWhateverTheNames) {
   EXPECT_FALSE(promisesBound(solvers, "auto"));
 }
 
+TEST(SolverChoice, NobodyWhoLooksAtAllRobotsAtOnceWhereTheirDistancesHaveNoRoom) {
+  const SolverTable solvers = builtinSolvers().traits();
+  Others others{{"prioritized", "lacam", "ecbs"}, "lacam"};
+  EXPECT_EQ(lastCalledFirst(solvers, others), (Names{"ecbs", "prioritized", "lacam"}));
+  others.one_by_one = true;
+  EXPECT_EQ(lastCalledFirst(solvers, others), (Names{"prioritized"}));
+}
+
 /// Fails at once.
 SolveResult giveUp(const Instance& /*instance*/, const Deadline& /*deadline*/) {
   SolveResult result;

@@ -38,8 +38,8 @@ struct DistanceGuide {
 /// Entries take 16 bits while every distance fits, 32 bits otherwise. A table of kAll is safe to
 /// read from several threads; one of kOnDemand grows while it is read and belongs to one thread at
 /// a time. Cost: O(V + E) time and 2 or 4 bytes a vertex; kOnDemand pays only for the part within
-/// the greatest distance asked for, and with a guide only for what lies on ways from there that are
-/// no longer than the one over the vertex asked for.
+/// the greatest distance asked for, with a guide for what lies on ways from there no longer than
+/// that over the vertex asked for, and one that may complete mostly for a way from that vertex.
 class DistanceTable {
  public:
   /// The distance of a vertex that cannot reach the goal.
