@@ -38,8 +38,6 @@ constexpr double kAsGood = 1.005;
 constexpr double kTurn = 25;
 constexpr double kTurnHeadOn = 8;
 constexpr double kTurnCrowd = 6;
-// Free cells a robot at most, where a large team is a crowd: on wider maps nothing jams so.
-constexpr std::uint64_t kCellsOfCrowd = 8;
 constexpr double kOftenHeadOn = 0.5;
 // Of searches that place robots; the others have as many or more.
 constexpr double kExpansionsASecond = 4e6;

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <utility>
 
-#include "search/placement_forecast.h"
-
 namespace split_mapf {
 namespace {
 
 // Keeps the weight of a whole path within 32 bits.
 constexpr std::uint32_t kMostQueued = 1000;
 constexpr std::uint32_t kLongestDelay = 20;
+// What is over sooner is no jam, whatever is foreseen: what few robots take of late says little.
+constexpr std::uint64_t kLeastJam = 500000;
 
 }  // namespace
 
@@ -103,6 +103,12 @@ bool Placement::mayDisplace(const std::vector<std::uint32_t>& robots,
   });
 }
 
+bool Placement::isJammed(PlacementForecast& forecast, std::uint64_t jam_limit) const {
+  if (jam_limit == 0) return false;
+  const bool exceeds = forecast.exceeds(jam_limit, batch_.size(), queue_.size(), expansions_);
+  return exceeds && expansions_ > kLeastJam;
+}
+
 /// @return whether the robot's turn is over: it is placed, or left over.
 bool Placement::place(Candidate& candidate, std::uint64_t displacements) {
   Path& path = candidate.answer.path;
@@ -134,7 +140,8 @@ Placement::Outcome Placement::run(std::uint32_t horizon, const Effort& effort,
                                   const Deadline& deadline) {
   std::size_t fewest = queue_.size();
   std::vector<std::uint32_t> postponed;
-  PlacementForecast forecast(instance_.robots());
+  PlacementForecast forecast = PlacementForecast::ofCrowd(instance_.robots());
+  PlacementForecast jam = PlacementForecast::ofJam(instance_.robots());
   for (std::uint64_t left = effort.patience; !queue_.empty();) {
     if (left == 0) return Outcome::kSpent;
     if (effort.expansion_limit > 0 && expansions_ > effort.expansion_limit) {
@@ -162,6 +169,7 @@ Placement::Outcome Placement::run(std::uint32_t horizon, const Effort& effort,
         forecast.exceeds(effort.expansion_limit, batch_.size(), queue_.size(), expansions_)) {
       return Outcome::kHopeless;
     }
+    if (isJammed(jam, effort.jam_limit)) return Outcome::kJammed;
     if (queue_.size() < fewest) {
       fewest = queue_.size();
       left = effort.patience;

@@ -8,6 +8,7 @@
 #include "search/apart.h"
 #include "search/batch_size.h"
 #include "search/eviction_search.h"
+#include "search/placement_forecast.h"
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"
@@ -34,6 +35,7 @@ class Placement {
     kSpent,        ///< the patience is over
     kExhausted,    ///< the expansions are
     kHopeless,     ///< they would be, long before everybody is placed
+    kJammed,       ///< a longer horizon is likely to take less
     kInterrupted,  ///< the deadline
   };
 
@@ -54,6 +56,9 @@ class Placement {
     /// Gives up as soon as the limit is foreseen to be passed, see PlacementForecast; without one
     /// it does nothing.
     bool forecasts = false;
+    /// Gives the horizon up as soon as so many expansions in all runs are foreseen for it; 0:
+    /// never.
+    std::uint64_t jam_limit = 0;
     /// How often a robot may be displaced; a robot that could only displace one that was displaced
     /// so often is left over.
     std::uint64_t displacements = kNoLimit;
@@ -79,6 +84,7 @@ class Placement {
   };
   void drawBatch(std::uint32_t horizon, const Effort& effort);
   void searchBatch(std::uint32_t horizon, const Effort& effort, const Deadline& deadline);
+  bool isJammed(PlacementForecast& forecast, std::uint64_t jam_limit) const;
   bool place(Candidate& candidate, std::uint64_t displacements);
   bool mayDisplace(const std::vector<std::uint32_t>& robots, std::uint64_t displacements) const;
   void remove(std::uint32_t robot);

@@ -7,14 +7,15 @@
 namespace split_mapf {
 
 /// Foresees what a placement will have expanded once nobody waits, from what it took of late to
-/// shorten its queue. While a map fills up each robot takes more than the one before, so what is
-/// left counts twice. Says nothing once a quarter of the robots wait: then those that wait are the
-/// displaced ones, and their number goes up and down. Depends on what happened only, not on
-/// threads or the clock.
+/// shorten its queue. Depends on what happened only, not on threads or the clock.
 class PlacementForecast {
  public:
-  explicit PlacementForecast(std::size_t robots)
-      : few_(robots / 4), window_(std::max<std::size_t>(1, robots / 20)) {}
+  /// While a map fills up each robot takes more than the one before, so what is left counts twice.
+  /// Says nothing once a quarter of the robots wait: then those that wait are the displaced ones,
+  /// and their number goes up and down.
+  static PlacementForecast ofCrowd(std::size_t robots) { return {robots / 4, robots / 20, 2}; }
+  /// Of the displaced ones, until few are left.
+  static PlacementForecast ofJam(std::size_t robots) { return {robots / 20, robots / 10, 1}; }
 
   /// @param tried  robots searched for since the last call. @param waiting, expansions  by now.
   /// @return whether more than `limit` expansions are foreseen.
@@ -30,15 +31,17 @@ class PlacementForecast {
     expansions_ = expansions;
     if (is_first || waiting <= few_) return false;
     const double each = taken / std::max(0.5, static_cast<double>(gained));
-    return static_cast<double>(expansions) + kGrowth * each * static_cast<double>(waiting) >
+    return static_cast<double>(expansions) + growth_ * each * static_cast<double>(waiting) >
            static_cast<double>(limit);
   }
 
  private:
-  static constexpr double kGrowth = 2;
+  PlacementForecast(std::size_t few, std::size_t window, double growth)
+      : few_(few), window_(std::max<std::size_t>(1, window)), growth_(growth) {}
 
-  std::size_t few_;
+  std::size_t few_;               // waiting robots for which nothing is foreseen
   std::size_t window_;            // tries between two looks
+  double growth_;                 // of what a robot takes, to the end
   std::size_t tried_ = 0;         // since the last look
   std::size_t waiting_ = 0;       // at that look; 0: there was none
   std::uint64_t expansions_ = 0;  // likewise

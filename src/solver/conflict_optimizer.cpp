@@ -18,6 +18,12 @@ namespace {
 // Fewer robots get as many placements as these.
 constexpr std::uint32_t kFewRobots = 100;
 
+// Sum of costs: the first horizon leaves robots that let others pass little time. Where more than
+// so many expansions a step of the robots' shortest ways are foreseen, twice the horizon takes
+// less.
+constexpr std::uint64_t kJamExpansions = 500000;
+constexpr std::uint64_t kJamExpansionsAStep = 50;
+
 constexpr const char* kName = "conflict_optimizer";
 
 SolverTraits traitsOfConflictOptimizer() {
@@ -49,6 +55,19 @@ Placement beginPlacing(const SolveRequest& request, std::uint64_t seed, std::uin
   Plan known = *request.known;
   trimToArrival(known);
   return Placement(instance, known, horizon, seed, request.threads, reserved);
+}
+
+/// But for what the options say.
+Placement::Effort firstEffort(const Instance& instance, Objective objective) {
+  Placement::Effort effort;
+  effort.forecasts = instance.robots() >= kCrowd;
+  effort.hasty = ruleOf(objective).greatest_only;
+  // Without room a longer horizon saves little and costs much; for makespan it is a worse plan.
+  const bool has_room = instance.graph().size() > kCellsOfCrowd * instance.robots();
+  if (ruleOf(objective).sums() && has_room && !effort.forecasts) {
+    effort.jam_limit = kJamExpansions + kJamExpansionsAStep * sumOfCostsLowerBound(instance);
+  }
+  return effort;
 }
 
 /// The crowd is too dense: better to stop while another solver has time.
@@ -118,12 +137,10 @@ SolveResult ConflictOptimizerSolver::placeAll(const SolveRequest& request,
   result.lower_bound = reserved.lowerBound(objective_);
   const std::uint32_t bound = reserved.makespanBound();
   Placement placement = beginPlacing(request, seed_, bound, reserved.paths());
-  Placement::Effort effort;
+  Placement::Effort effort = firstEffort(instance, objective_);
   effort.patience =
       std::max<std::uint64_t>(1, settings_.patience * std::max(kFewRobots, instance.robots()));
   effort.expansion_limit = expansion_limit_;
-  effort.forecasts = instance.robots() >= kCrowd;
-  effort.hasty = ruleOf(objective_).greatest_only;
   // Longer than this no robot has to travel on any but pathological graphs.
   const std::uint64_t longest = std::uint64_t{4} * (bound + instance.graph().size());
   // On few cells the first horizon would be longer, and none would be tried.
@@ -132,8 +149,14 @@ SolveResult ConflictOptimizerSolver::placeAll(const SolveRequest& request,
   for (std::uint64_t step = 1; bound + slack <= longest; slack += step, step += (step + 3) / 4) {
     ++result.high_level_nodes;
     const auto outcome = placement.run(static_cast<std::uint32_t>(bound + slack), effort, deadline);
-    effort.delayed_one_in = Placement::kDelayedOneIn;
     result.low_level_expansions = placement.expansions();
+    if (outcome == Placement::Outcome::kJammed) {
+      slack = std::max<std::uint64_t>(slack, bound);
+      effort.jam_limit = 0;
+      effort.hasty = true;
+      continue;
+    }
+    effort.delayed_one_in = Placement::kDelayedOneIn;
     if (outcome == Placement::Outcome::kSpent) continue;
     if (outcome == Placement::Outcome::kExhausted) return outOfExpansions(expansion_limit_);
     if (outcome == Placement::Outcome::kHopeless) return hopeless(placement, expansion_limit_);

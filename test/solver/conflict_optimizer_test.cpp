@@ -46,6 +46,15 @@ TEST(ConflictOptimizer, SpentAllItsExpansionsOnACrowdThatItCouldNotPlace) {
       << result.message;
 }
 
+TEST(ConflictOptimizer, SearchedOnInAJamThatALongerHorizonResolves) {
+  const Instance instance = test::generatedInstance(48, 0.35, 130, 3);
+  const SolveResult result = solve(instance, Objective::kSumOfCosts);
+  ASSERT_EQ(result.termination, Termination::kSolved);
+  EXPECT_TRUE(validate(instance, *result.plan).empty());
+  EXPECT_GT(makespanOf(*result.plan), makespanLowerBound(instance) + 5) << "the first horizon";
+  EXPECT_LT(result.low_level_expansions, 1500000U);
+}
+
 TEST(ConflictOptimizer, ThreadsDoNotChangeThePlan) {
   const Instance instance = test::generatedInstance(24, 0.2, 150);
   for (const Objective objective : {Objective::kMakespan, Objective::kSumOfCosts}) {
