@@ -64,9 +64,10 @@ class Launch(unittest.TestCase):
                            "columns:=1", "rows:=2", "orders:=6", "speed:=8.0", "rviz:=false",
                            "robot_radius:=%g" % radius, "manager:=" + manager)
             self.addCleanup(demo.end)
-            self.assertTrue(wait_until(lambda of_demo=radius: rospy.get_param(
-                "/fleet/robot_radius", None) == of_demo), demo.output())
-            self.assertEqual(rospy.get_param("/fake_robots/diameter"), 2 * radius)
+            for name, expected in (("/fleet/robot_radius", radius),
+                                   ("/fake_robots/diameter", 2 * radius)):
+                self.assertTrue(wait_until(lambda of=name, it=expected: rospy.get_param(
+                    of, None) == it), "%s: %s" % (name, demo.output()))
             self.assertTrue(demo.wait_for_output(" 6 orders done"), demo.output())
             self.assertIn("0 moves failed", demo.output())
             demo.wait()

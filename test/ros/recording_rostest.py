@@ -84,6 +84,9 @@ class Recording(unittest.TestCase):
         topics = {ACTION + name for name in ("goal", "feedback", "result")}
         topics.add("/diagnostics")
         assert wait_until(lambda: topics <= topics_received_by("/record")), planner.output()
+        # The recorder says so before its connection is accepted here.
+        goals = client.pub_goal
+        assert wait_until(lambda: goals.get_num_connections() >= 2), planner.output()
         sent = SentGoal(client, warehouse_goal())
         assert sent.wait_for_end(), planner.output()
         assert sent.result().outcome == PlanOutcome.SUCCEEDED, sent.result().message
