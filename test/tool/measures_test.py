@@ -51,16 +51,25 @@ class Coverage(unittest.TestCase):
 
 
 class Benchmark(unittest.TestCase):
-    def test_what_costs_a_quarter_more_is_marked(self):
+    def compare(self, measured):
         text = io.StringIO()
+        recorded = {"a": 1.0, "b": 1.0, "dear": 1.0}
         with contextlib.redirect_stdout(text):
-            worse = load("benchmark").print_beside(
-                "plans", {"same": 1.2, "dear": 1.3, "new": 9.0}, {"same": 1.0, "dear": 1.0})
+            worse = load("benchmark").print_beside("plans", measured, recorded)
+        return worse, [line for line in text.getvalue().splitlines() if "WORSE" in line]
+
+    def test_what_costs_a_quarter_more_than_the_others_is_marked(self):
+        worse, marked = self.compare({"a": 1.2, "b": 1.1, "dear": 1.6, "new": 9.0})
         self.assertEqual(worse, 1)
-        marked = [line for line in text.getvalue().splitlines() if "WORSE" in line]
         self.assertEqual(len(marked), 1)
         self.assertIn("dear", marked[0])
-        self.assertIn("+30 %", marked[0])
+        self.assertIn("+33 %", marked[0])
+
+    def test_what_makes_all_dearer_is_said_once(self):
+        worse, marked = self.compare({"a": 1.4, "b": 1.3, "dear": 1.5})
+        self.assertEqual(worse, 0)
+        self.assertEqual(len(marked), 1)
+        self.assertIn("ALL WORSE", marked[0])
 
 
 if __name__ == "__main__":
