@@ -92,6 +92,7 @@ void DiscParts::readRobots(const MultiRobotPlan& plan) {
     home_.push_back(legOf(place_of(plan_.paths[i].back()), toRaster(frame, {goal.x, goal.y}),
                           path.radius, path.arrival_steps));
   }
+  of_plan_ = ids_.size();
 }
 
 std::optional<Vertex> DiscParts::vertexFor(PlanePoint place) const {
@@ -131,8 +132,11 @@ std::string DiscParts::whyNot(const JoiningDisc& robot,
 std::shared_ptr<const DiscParts> DiscParts::with(const JoiningDisc& robot) const {
   auto more = std::make_shared<DiscParts>(*this);
   const auto found = std::find(ids_.begin(), ids_.end(), robot.id);
-  const auto index = static_cast<std::size_t>(found - ids_.begin());
-  if (found == ids_.end()) {
+  auto index = static_cast<std::size_t>(found - ids_.begin());
+  // One that joins once more is behind those that have joined since.
+  if (index >= of_plan_ && found != ids_.end()) more->forget(index);
+  if (index >= of_plan_) {
+    index = more->ids_.size();
     more->ids_.push_back(robot.id);
     more->away_.emplace_back();
     more->home_.emplace_back();
@@ -147,6 +151,14 @@ std::shared_ptr<const DiscParts> DiscParts::with(const JoiningDisc& robot) const
 
 FleetPart DiscParts::part(std::uint32_t number, const std::vector<std::string>& ids,
                           const std::vector<LeftOut>& left_out) const {
+void DiscParts::forget(std::size_t index) {
+  const auto at = static_cast<std::ptrdiff_t>(index);
+  ids_.erase(ids_.begin() + at);
+  away_.erase(away_.begin() + at);
+  home_.erase(home_.begin() + at);
+  plan_.paths.erase(plan_.paths.begin() + at);
+}
+
   std::vector<std::uint32_t> robots;
   for (std::uint32_t i = 0; i < ids_.size(); ++i) {
     if (std::find(ids.begin(), ids.end(), ids_[i]) != ids.end()) robots.push_back(i);

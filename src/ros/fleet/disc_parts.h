@@ -70,7 +70,8 @@ class DiscParts {
   /// @param others  those that take part.
   std::string whyNot(const JoiningDisc& robot, const std::vector<std::string>& others) const;
   /// The same with another robot, which the last part leads off the graph when all others have
-  /// gone. One of the plan that was taken off the floor may come again, to another goal.
+  /// gone. One that was taken off the floor may come again, to another goal. Robots beyond the plan
+  /// are numbered as they came last: who joins those again in that order gets the same parts.
   /// @pre whyNot() is empty.
   std::shared_ptr<const DiscParts> with(const JoiningDisc& robot) const;
   /// One part, for the robots that are to go on. In the last one robots whose legs come near to
@@ -84,6 +85,7 @@ class DiscParts {
   void readRobots(const MultiRobotPlan& plan);
   FleetPart legs(bool at_goal, const std::vector<std::uint32_t>& robots,
                  const std::vector<LeftOut>& left_out) const;
+  void forget(std::size_t index);
   bool comesNear(const DrivenLeg& leg, const LeftOut& way) const;
 
   std::shared_ptr<const DiscGround> ground_;
@@ -93,6 +95,7 @@ class DiscParts {
   std::vector<std::string> ids_;
   Plan plan_;
   std::vector<DrivenLeg> away_;  // by robot
+  std::size_t of_plan_ = 0;  // of them, the others have joined
   std::vector<DrivenLeg> home_;
   double radius_m_ = 0;  // of the largest
   double clearance_m_ = 0;
