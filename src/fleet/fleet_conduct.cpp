@@ -218,6 +218,21 @@ bool FleetExecution::isJoining(const std::string& id) const {
   return std::any_of(joiners_.begin(), joiners_.end(), is_it);
 }
 
+bool FleetExecution::removeJoiner(const std::string& id) {
+  const auto is_it = [&](const Joiner& joiner) { return joiner.id == id; };
+  const auto joiner = std::find_if(joiners_.begin(), joiners_.end(), is_it);
+  if (joiner == joiners_.end()) return false;
+  const auto index = static_cast<std::size_t>(joiner - joiners_.begin());
+  if (asked_ && index < question_joiners_) ++version_;
+  // Those behind it may have been asked for with numbers that would be others' now.
+  next_number_ += static_cast<std::uint32_t>(joiners_.size());
+  joiners_.erase(joiner);
+  ++snapshot_version_;
+  ground_.reset();
+  openCells();
+  return true;
+}
+
 std::string FleetExecution::add(const std::string& id, Vertex at, Vertex goal) {
   if (restoring_) return "the execution is being taken up again; try later";
   if (find(id) || isJoining(id)) {

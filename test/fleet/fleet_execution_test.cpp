@@ -189,6 +189,29 @@ TEST(FleetExecution, LetsRobotsGoAndJoin) {
   EXPECT_EQ(small.fleet->route(1, 100).back().vertex, 4U);
 }
 
+TEST(FleetExecution, ARobotThatWasToJoinCouldNotLeave) {
+  Small small({"....", "...."}, {{0, 1, 2, 3}});
+  EXPECT_FALSE(small.fleet->removeJoiner("new"));
+  EXPECT_EQ(small.fleet->add("new", 7, 4), "");
+  EXPECT_EQ(small.fleet->add("other", 6, 5), "");
+  EXPECT_TRUE(small.fleet->closed()[7]);
+  const auto question = small.fleet->ask(1);
+  ASSERT_TRUE(question && question->anew);
+  const std::uint64_t kept = small.fleet->snapshotVersion();
+  EXPECT_TRUE(small.fleet->removeJoiner("new"));
+  EXPECT_NE(small.fleet->snapshotVersion(), kept);
+  EXPECT_FALSE(small.fleet->isJoining("new"));
+  EXPECT_FALSE(small.fleet->closed()[7]);
+  EXPECT_TRUE(small.fleet->isUrgent()) << "what is asked counts on it";
+  small.fleet->take(answerFleet(*question, small.planner, {}, {}), 1);
+  EXPECT_EQ(small.fleet->robots(), 1U);
+  small.answer(2);
+  ASSERT_EQ(small.fleet->robots(), 2U);
+  EXPECT_EQ(small.fleet->id(1), "other");
+  EXPECT_EQ(small.fleet->route(1, 100).back().vertex, 5U);
+  EXPECT_EQ(small.fleet->add("new", 7, 4), "") << "it may come again";
+}
+
 TEST(FleetExecution, WaitsForNoImprovementWhereARobotDropsOut) {
   Small small({"....", "...."}, {{0, 1, 2, 3}, {4, 5, 6, 7}});
   EXPECT_FALSE(small.fleet->isUrgent());

@@ -118,6 +118,9 @@ class FleetExecution {
   /// A robot that stands on a vertex joins with the next plan that is made anew.
   /// @return why it cannot; empty: it will.
   std::string add(const std::string& id, Vertex at, Vertex goal);
+  /// One that was added does not join after all: its vertex is free. An answer that counts on it is
+  /// not taken. @return whether it was to join.
+  bool removeJoiner(const std::string& id);
   /// A paused robot ends what is released to it, then the others are planned around it.
   void pause(std::uint32_t robot, bool paused);
   /// No robot is promised anything more; false: every robot goes on, those paused one by one, too.

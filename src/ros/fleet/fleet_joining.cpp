@@ -59,7 +59,6 @@ std::string FleetServer::tryToEnlist(const RobotTask& task, const Known& known) 
   }
   std::string why = tryToJoin(task, known);
   if (!why.empty()) return why;
-  removed_.erase(task.robot_id);
   if (read.goal != kNoVertex) tasks_->add(task.robot_id, read.goal, now());
   return "";
 }

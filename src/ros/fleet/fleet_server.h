@@ -182,6 +182,7 @@ class FleetServer {
   std::string tryToJoinPlan(const RobotTask& task, const Known& known);
   std::string tryToJoinDiscs(const RobotTask& task, const Known& known);
   std::string whoseTopic(const std::string& id) const;
+  bool takeBack(const std::string& id);
   bool isWaitingToJoin(const std::string& id) const;
   std::string standsOnVertex(const RobotTask& task, const Known& known, Vertex& at) const;
   std::string readGoal(const RobotTask& task, Vertex at, JoiningDisc& robot) const;

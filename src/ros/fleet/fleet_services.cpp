@@ -40,11 +40,7 @@ bool FleetServer::blockCells(BlockCells::Request& request, BlockCells::Response&
 bool FleetServer::removeRobot(RemoveRobot::Request& request, RemoveRobot::Response& response) {
   const Lock lock(mutex_);
   known_.erase(request.robot_id);
-  const auto is_it = [&](const JoiningDisc& robot) { return robot.id == request.robot_id; };
-  const auto waiting = std::remove_if(joining_next_.begin(), joining_next_.end(), is_it);
-  if (waiting != joining_next_.end()) {
-    joining_next_.erase(waiting, joining_next_.end());
-    kept_version_ = 0;
+  if (takeBack(request.robot_id)) {
     response.ok = true;
     response.message = "robot " + quote(request.robot_id) + " does not join";
     return true;
@@ -75,11 +71,31 @@ bool FleetServer::removeRobot(RemoveRobot::Request& request, RemoveRobot::Respon
   return true;
 }
 
+/// A robot that was accepted, and takes no part yet. @return whether it is one.
+bool FleetServer::takeBack(const std::string& id) {
+  const auto take_from = [&](std::vector<JoiningDisc>& robots) {
+    const auto is_it = [&](const JoiningDisc& robot) { return robot.id == id; };
+    const auto end = std::remove_if(robots.begin(), robots.end(), is_it);
+    const bool is_in = end != robots.end();
+    robots.erase(end, robots.end());
+    return is_in;
+  };
+  const bool was_let_in = fleet_ && fleet_->removeJoiner(id);
+  if (was_let_in) take_from(joined_);
+  if (!was_let_in && !take_from(joining_next_)) return false;
+  removed_.insert(id);
+  kept_version_ = 0;
+  return true;
+}
+
 bool FleetServer::addRobot(AddRobot::Request& request, AddRobot::Response& response) {
   const Lock lock(mutex_);
   response.message = tryToAdd(request.robot);
   response.ok = response.message.empty();
-  if (response.ok) response.message = "robot " + quote(request.robot.robot_id) + " joins";
+  if (response.ok) {
+    removed_.erase(request.robot.robot_id);
+    response.message = "robot " + quote(request.robot.robot_id) + " joins";
+  }
   // Whoever asked does not ask again after a restart.
   if (response.ok && discs_) keepLocked(now());
   return true;
