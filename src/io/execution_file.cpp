@@ -149,6 +149,7 @@ json toJson(const FleetSnapshot::Part& part) {
   for (const FleetSnapshot::Joined& robot : part.joined) {
     joined.push_back(
         {{"id", robot.id}, {"place", {robot.place.x, robot.place.y}}, {"waits", robot.waits}});
+    if (robot.start) joined.back()["start"] = {robot.start->x, robot.start->y};
   }
   return {{"plan", boost::algorithm::hex(part.plan)},
           {"number", part.number},
@@ -185,6 +186,10 @@ FleetSnapshot::Part partOf(const json& from) {
     part.joined.push_back({robot.at("id").get<std::string>(),
                            {place.at(0).get<double>(), place.at(1).get<double>()},
                            robot.at("waits").get<bool>()});
+    if (robot.contains("start")) {
+      const json& start = robot.at("start");
+      part.joined.back().start = {start.at(0).get<double>(), start.at(1).get<double>()};
+    }
   }
   return part;
 }

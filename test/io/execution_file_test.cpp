@@ -67,7 +67,7 @@ TEST_F(ExecutionFile, KeepsThePartOfAPlanOfRobotsThatHaveSize) {
   part.ids = {"a", "b"};
   part.left_behind = {{"c", {{0.25, -1}, {3, 4}}, true}};
   part.faults = {{"c", 31, "stands"}};
-  part.joined = {{"d", {0.75, 2}, false}, {"e", {1, 0.1}, true}};
+  part.joined = {{"d", {0.75, 2}, false}, {"e", {1, 0.1}, true, PlanePoint{2.5, -1}}};
   snapshot.part = part;
   writeExecution(path, snapshot);
   const auto read = readExecution(path);
@@ -92,6 +92,10 @@ TEST_F(ExecutionFile, KeepsThePartOfAPlanOfRobotsThatHaveSize) {
   EXPECT_FALSE(read->part->joined[0].waits);
   EXPECT_EQ(read->part->joined[1].place.y, 0.1);
   EXPECT_TRUE(read->part->joined[1].waits);
+  EXPECT_FALSE(read->part->joined[0].start);
+  ASSERT_TRUE(read->part->joined[1].start);
+  EXPECT_EQ(read->part->joined[1].start->x, 2.5);
+  EXPECT_EQ(read->part->joined[1].start->y, -1);
 
   // The same file, its plan cut in the middle of a byte.
   std::string text = contentOf(path);

@@ -11,14 +11,15 @@ import tempfile
 
 import rospy
 import rosunit
+from geometry_msgs.msg import Point
 from nav_msgs.msg import OccupancyGrid
 
 from fleet_case import FleetCase
-from move_clients import connect, goal_of, task
-from ros_processes import PATIENCE, SentGoal, action_client, start_program, wait_until
+from move_clients import connect, goal_of, pose_at, task
+from ros_processes import PATIENCE, Recorder, SentGoal, action_client, start_program, wait_until
 from split_mapf.msg import (MultiRobotPlan, PlanOutcome, PlanPathsGoal, RobotPath, RobotProgress,
-                            RobotState, RobotTask)
-from split_mapf.srv import AddRobot, BlockCells, PauseRobots
+                            RobotRoute, RobotState, RobotTask)
+from split_mapf.srv import AddRobot, BlockCells, PauseRobots, RemoveRobot
 
 RADIUS = 0.3
 SPEED = 5.0
@@ -190,18 +191,47 @@ class DiscFleet(FleetCase):
         self.assertTrue(wait_until(lambda: len(self.plan_ids()) == 1, PATIENCE), fleet.output())
         self.assertTrue(wait_until(lambda: os.path.exists(self.file), PATIENCE))
         # Another robot is to join when all are on the graph.
-        self.appear("late", *self.free_vertex())
+        late = self.free_vertex()
+        self.appear("late", *late)
         self.assertTrue(wait_until(lambda: self.add("late", *MIDDLE).ok, PATIENCE),
                         fleet.output())
         self.assertIn("already", self.add("late", *MIDDLE).message)
+        # And one that stays, and does not know where it is.
+        self.join_without_pose("blind", self.free_vertex(late, MIDDLE))
         fleet = self.kill_and_start_again(fleet)
         self.assertTrue(wait_until(lambda: pause([], False).ok, PATIENCE), fleet.output())
         self.assertTrue(wait_until(lambda: len(self.plan_ids()) == 2, PATIENCE), fleet.output())
         self.assertTrue(wait_until(lambda: self.count(RobotState.MOVING) > 2, PATIENCE))
         fleet = self.kill_and_start_again(fleet)
         # Who asks for the same again has the execution's end.
-        self.assert_all_arrive_with(self.send(), "late", *MIDDLE)
+        self.assert_all_arrive_with(self.send(), "late", *MIDDLE, joined=2)
         self.assertEqual(len(self.plan_ids()), 3)
+
+    def join_without_pose(self, robot_id, place):
+        """A robot that says its visits alone, and is at each as soon as it may go there."""
+        topic = rospy.Publisher("progress", RobotProgress, queue_size=10)
+        self.addCleanup(topic.unregister)
+        routes = Recorder("fleet/routes", RobotRoute)
+        self.addCleanup(routes.close)
+
+        def report(_event):
+            message = RobotProgress(robot_id=robot_id)
+            message.pose.header.stamp = rospy.Time.now()
+            route = next((route for route in reversed(routes.messages)
+                          if route.robot_id == robot_id), None)
+            if route:
+                message.plan_id = route.plan_id
+                message.sequence = max(visit.sequence for visit in route.visits if visit.released)
+            topic.publish(message)
+
+        timer = rospy.Timer(rospy.Duration(0.05), report)
+        self.addCleanup(timer.shutdown)
+        add = rospy.ServiceProxy("fleet/add_robot", AddRobot)
+        blind = RobotTask(robot_id=robot_id)
+        self.assertTrue(wait_until(lambda: "no pose" in add(blind).message, PATIENCE))
+        blind.start = pose_at(*place)
+        answer = add(blind)
+        self.assertTrue(answer.ok, answer.message)
 
     def appear(self, robot_id, x, y):
         """A robot without hardware, beside those of the plan."""
@@ -213,9 +243,10 @@ class DiscFleet(FleetCase):
         self.addCleanup(self.plan_topic.publish, self.plan)
         self.assertTrue(wait_until(lambda: self.place_of(robot_id) is not None, PATIENCE))
 
-    def free_vertex(self):
-        """Where nobody stands or begins, far from all goals."""
-        taken = [self.place_of(path.robot_id) for path in self.plan.paths]
+    def free_vertex(self, *others):
+        """Where nobody stands or begins, far from all goals, and from other places."""
+        taken = [Point(x, y, 0) for x, y in others]
+        taken += [self.place_of(path.robot_id) for path in self.plan.paths]
         taken += [pose.position for path in self.plan.paths for pose in (path.start, path.goal)]
         for cell in sorted({cell for path in self.plan.paths for cell in path.cells}):
             x, y = (cell % ROOMS[0] + 0.5) * CELL, (cell // ROOMS[0] + 0.5) * CELL
@@ -229,10 +260,10 @@ class DiscFleet(FleetCase):
         task_of_robot.radius = radius
         return rospy.ServiceProxy("fleet/add_robot", AddRobot)(task_of_robot)
 
-    def assert_all_arrive_with(self, goal, robot_id, x, y):
-        self.assertTrue(goal.wait_for_end(PATIENCE))
+    def assert_all_arrive_with(self, goal, robot_id, x, y, joined=1):
+        self.assertTrue(goal.wait_for_end(PATIENCE), self.latest())
         self.assertEqual(goal.result().outcome, PlanOutcome.SUCCEEDED, goal.result().message)
-        self.assertEqual(self.count(RobotState.ARRIVED), self.ROBOTS + 1)
+        self.assertEqual(self.count(RobotState.ARRIVED), self.ROBOTS + joined)
         at = self.place_of(robot_id)
         self.assertLess(math.hypot(at.x - x, at.y - y), 1e-3)
         for path in self.plan.paths:
@@ -250,6 +281,10 @@ class DiscFleet(FleetCase):
         x, y = self.free_vertex()
         self.appear("late", x, y)
         first = self.plan.paths[0].goal.position
+        add = rospy.ServiceProxy("fleet/add_robot", AddRobot)
+        elsewhere = RobotTask(robot_id="late", start=pose_at(*MIDDLE))
+        # From its first report on.
+        self.assertTrue(wait_until(lambda: "from its start" in add(elsewhere).message))
         for answer, reason in ((self.add("late", first.x, first.y), self.plan.paths[0].robot_id),
                                (self.add("late", *MIDDLE, radius=2 * RADIUS), "radius"),
                                (self.add("late", *MIDDLE, radius=float("nan")), "radius"),
@@ -260,6 +295,11 @@ class DiscFleet(FleetCase):
             self.assertIn(reason, answer.message)
         self.assertTrue(self.add("late", *MIDDLE).ok)
         self.assertIn("already", self.add("late", *MIDDLE).message)
+        # No plan is made meanwhile: it is let in, and takes no part.
+        remove = rospy.ServiceProxy("fleet/remove_robot", RemoveRobot)
+        self.assertIn("does not join", remove("late").message)
+        self.assertFalse(remove("late").ok)
+        self.assertTrue(wait_until(lambda: self.add("late", *MIDDLE).ok))
         self.assertTrue(pause([], False).ok)
         self.assert_all_arrive_with(goal, "late", *MIDDLE)
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -75,6 +76,14 @@ TEST(DiscParts, ARobotOfThePlanThatComesAgainKeepsItsNumber) {
   const FleetPart last = room.parts->with(other)->with(again)->part(2, {"e", "a"}, {});
   EXPECT_EQ(last.ids, (std::vector<std::string>{"a", "e"}));
   EXPECT_NEAR(last.moves->place(last.plan.paths[0].back()).x, again.place.x, 1e-9);
+}
+
+TEST(DiscParts, ARobotThatLeftDroveOntoTheGraphPastOneThatJoined) {
+  const Room room;
+  // On the raster, whose rows begin at the top.
+  const PlanePoint start{0.5, 3.5};
+  EXPECT_EQ(room.parts->whoComesNear(start, {"a"}), "a");
+  EXPECT_EQ(room.parts->whoComesNear(start, {}), std::nullopt);
 }
 
 }  // namespace

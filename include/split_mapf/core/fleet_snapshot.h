@@ -45,6 +45,7 @@ struct FleetSnapshot {
     std::string id;
     PlanePoint place;    ///< its goal [m]
     bool waits = false;  ///< it is to join, and is not among the robots yet
+    std::optional<PlanePoint> start = std::nullopt;  ///< where it stands that gives no poses [m]
   };
   /// Of a plan of robots that have size, which is executed in parts: what the ground of the present
   /// part is built from. What else is kept is of that part.

@@ -99,9 +99,11 @@ std::optional<Vertex> DiscParts::vertexFor(PlanePoint place) const {
   return ground_->nearest({place.x, place.y}, snap_distance_m_);
 }
 
-std::optional<std::string> DiscParts::whoComesNear(PlanePoint place) const {
+std::optional<std::string> DiscParts::whoComesNear(PlanePoint place,
+                                                   const std::vector<std::string>& robots) const {
   for (std::size_t i = 0; i < away_.size(); ++i) {
-    if (comesNear(away_[i], {place})) return ids_[i];
+    const bool is_there = std::find(robots.begin(), robots.end(), ids_[i]) != robots.end();
+    if (is_there && comesNear(away_[i], {place})) return ids_[i];
   }
   return std::nullopt;
 }
@@ -149,8 +151,6 @@ std::shared_ptr<const DiscParts> DiscParts::with(const JoiningDisc& robot) const
   return more;
 }
 
-FleetPart DiscParts::part(std::uint32_t number, const std::vector<std::string>& ids,
-                          const std::vector<LeftOut>& left_out) const {
 void DiscParts::forget(std::size_t index) {
   const auto at = static_cast<std::ptrdiff_t>(index);
   ids_.erase(ids_.begin() + at);
@@ -159,6 +159,8 @@ void DiscParts::forget(std::size_t index) {
   plan_.paths.erase(plan_.paths.begin() + at);
 }
 
+FleetPart DiscParts::part(std::uint32_t number, const std::vector<std::string>& ids,
+                          const std::vector<LeftOut>& left_out) const {
   std::vector<std::uint32_t> robots;
   for (std::uint32_t i = 0; i < ids_.size(); ++i) {
     if (std::find(ids.begin(), ids.end(), ids_[i]) != ids.end()) robots.push_back(i);

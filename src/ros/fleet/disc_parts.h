@@ -35,9 +35,10 @@ using LeftOut = std::vector<PlanePoint>;
 /// A robot that was not in the plan, and joins on the planning graph.
 struct JoiningDisc {
   std::string id;
-  Vertex goal = kNoVertex;  ///< the vertex to which it goes
-  PlanePoint place;         ///< and from there straight to this one, on the raster [m]
-  std::string obstacle;     ///< why it could not join so far; empty: it was not tried
+  Vertex goal = kNoVertex;          ///< the vertex to which it goes
+  PlanePoint place;                 ///< and from there straight to this one, on the raster [m]
+  std::string obstacle;             ///< why it could not join so far; empty: it was not tried
+  std::optional<PlanePoint> start;  ///< on the raster, where it stands that gives no poses
 };
 
 /// A plan of robots that have size as three executions, one after the other: the legs onto the
@@ -63,8 +64,9 @@ class DiscParts {
   /// The vertex from which a robot drives straight to a place of the raster, at most so far as
   /// ~snap_distance allows; nothing where there is none.
   std::optional<Vertex> vertexFor(PlanePoint place) const;
-  /// Whether a robot's way onto the graph comes too near to a place; which robot's.
-  std::optional<std::string> whoComesNear(PlanePoint place) const;
+  /// Whether the way onto the graph of one of these robots comes too near to a place; which one's.
+  std::optional<std::string> whoComesNear(PlanePoint place,
+                                          const std::vector<std::string>& robots) const;
   /// Why a robot cannot end where it wants to: one of the others drives off the graph too near to
   /// its vertex, or ends too near to its own way off the graph. Empty: it can.
   /// @param others  those that take part.
@@ -83,9 +85,9 @@ class DiscParts {
   void requireValid(const MultiRobotPlan& plan, const ObstacleRaster& raster) const;
   DrivenLeg homeOf(const JoiningDisc& robot) const;
   void readRobots(const MultiRobotPlan& plan);
+  void forget(std::size_t index);
   FleetPart legs(bool at_goal, const std::vector<std::uint32_t>& robots,
                  const std::vector<LeftOut>& left_out) const;
-  void forget(std::size_t index);
   bool comesNear(const DrivenLeg& leg, const LeftOut& way) const;
 
   std::shared_ptr<const DiscGround> ground_;
@@ -93,9 +95,9 @@ class DiscParts {
   std::shared_ptr<const Grid> grid_;
   std::shared_ptr<const CloseMoves> moves_;
   std::vector<std::string> ids_;
+  std::size_t of_plan_ = 0;  // of them, the others have joined
   Plan plan_;
   std::vector<DrivenLeg> away_;  // by robot
-  std::size_t of_plan_ = 0;  // of them, the others have joined
   std::vector<DrivenLeg> home_;
   double radius_m_ = 0;  // of the largest
   double clearance_m_ = 0;

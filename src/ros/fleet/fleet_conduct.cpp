@@ -105,6 +105,13 @@ std::optional<PlanePoint> FleetServer::rasterPoint(
   return PlanePoint{at.x, at.y};
 }
 
+/// The cell under a place of the raster.
+Cell FleetServer::cellUnder(PlanePoint place) const {
+  const double resolution_m = grid_->geometry.info().resolution;
+  return {static_cast<std::int32_t>(std::floor(place.x / resolution_m)),
+          static_cast<std::int32_t>(std::floor(place.y / resolution_m))};
+}
+
 /// A pose in the frame of the map; nothing where there is none, or no map yet.
 std::optional<geometry_msgs::Point> FleetServer::poseOnMap(
     const geometry_msgs::PoseStamped& pose) const {

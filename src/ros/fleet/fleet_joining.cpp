@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -114,23 +115,27 @@ std::string FleetServer::tryToJoinDiscs(const RobotTask& task, const Known& know
     return "its radius is " + inMetres(task.radius) + ": 0 to " + inMetres(discs_->radius()) +
            " are possible, the largest one of the plan";
   }
-  Vertex at = kNoVertex;
-  why = standsOnVertex(task, known, at);
-  if (!why.empty()) return why;
   JoiningDisc robot;
   robot.id = id;
-  why = readGoal(task, at, robot);
-  if (!why.empty()) return why;
-  why = whyNoEnd(robot);
-  if (!why.empty()) return why;
-  if (part_ == 0) {
-    const auto who = discs_->whoComesNear(discs_->placeOf(at));
-    if (who) return "robot " + quote(*who) + " drives onto the planning graph too near to it";
-    joining_next_.push_back(std::move(robot));
-    kept_version_ = 0;
-    return "";
-  }
-  return joinPart(robot, at);
+  Vertex at = kNoVertex;
+  why = readStart(task, known, robot);
+  if (why.empty()) why = standsOnVertex(robot.start, known, at);
+  if (why.empty()) why = readGoal(task, at, robot);
+  if (why.empty()) why = whyNoEnd(robot);
+  if (why.empty()) why = part_ == 0 ? waitToJoin(robot, at) : joinPart(robot, at);
+  if (why.empty()) placeAtStart(robot);
+  return why;
+}
+
+/// Until all are on the graph. @return why not; empty: it waits.
+std::string FleetServer::waitToJoin(const JoiningDisc& robot, Vertex at) {
+  std::vector<std::string> others;
+  for (std::uint32_t i = 0; i < fleet_->robots(); ++i) others.push_back(fleet_->id(i));
+  const auto who = discs_->whoComesNear(discs_->placeOf(at), others);
+  if (who) return "robot " + quote(*who) + " drives onto the planning graph too near to it";
+  joining_next_.push_back(robot);
+  kept_version_ = 0;
+  return "";
 }
 
 bool FleetServer::isWaitingToJoin(const std::string& id) const {
@@ -138,17 +143,45 @@ bool FleetServer::isWaitingToJoin(const std::string& id) const {
                      [&](const JoiningDisc& robot) { return robot.id == id; });
 }
 
+/// Where it is told to stand; a pose that it reports knows better, and may not be elsewhere.
+/// @return what is wrong; empty: nothing.
+std::string FleetServer::readStart(const RobotTask& task, const Known& known,
+                                   JoiningDisc& robot) const {
+  if (task.start.header.frame_id.empty()) return "";
+  const std::optional<PlanePoint> start =
+      isFinite(task.start) ? rasterPoint(poseOnMap(task.start)) : std::nullopt;
+  if (!start) return "it is not known where its start is";
+  const std::optional<PlanePoint> pose = rasterPoint(poseOnMap(known.pose));
+  if (!pose) {
+    robot.start = start;
+    return "";
+  }
+  const double off_m = std::hypot(pose->x - start->x, pose->y - start->y);
+  if (off_m <= discs_->distance() / 2) return "";
+  return "it reports to be " + inMetres(off_m) + " from its start; robots may be off by " +
+         inMetres(discs_->distance() / 2);
+}
+
+/// One that gives no poses is where it was told to stand, for all others, too.
+void FleetServer::placeAtStart(const JoiningDisc& robot) {
+  if (!robot.start) return;
+  const auto [known, is_new] = known_.try_emplace(robot.id);
+  if (is_new) known->second.heard = -std::numeric_limits<double>::infinity();
+  if (!known->second.hasPose()) known->second.place = cellUnder(*robot.start);
+}
+
+/// @param start  where one that gives no poses was told to stand.
 /// @param at  the vertex on which it stands. @return why it stands on none; empty: it does.
-std::string FleetServer::standsOnVertex(const RobotTask& task, const Known& known,
+std::string FleetServer::standsOnVertex(const std::optional<PlanePoint>& start, const Known& known,
                                         Vertex& at) const {
+  std::optional<PlanePoint> point = rasterPoint(poseOnMap(known.pose));
   std::optional<Cell> place = known.place;
-  std::optional<geometry_msgs::Point> point = poseOnMap(known.pose);
-  if (!place && isFinite(task.start)) {
-    point = poseOnMap(task.start);
-    place = cellAt(point);
+  if (start && !known.hasPose()) {
+    point = start;
+    place = cellUnder(*start);
   }
   if (!place) return "its place is not known, as its progress has no pose";
-  const std::optional<Vertex> vertex = vertexUnder(discs_->ground(), *place, rasterPoint(point));
+  const std::optional<Vertex> vertex = vertexUnder(discs_->ground(), *place, point);
   if (!vertex) {
     return "it is in cell " + grid_->geometry.describeWithMetres(*place) +
            ", not on a vertex of the planning graph";
@@ -231,10 +264,9 @@ void FleetServer::letWaitingJoin(double now) {
     const auto known = known_.find(robot.id);
     const bool reports =
         known != known_.end() && now - known->second.heard <= options_.fleet.progress_timeout_sec;
-    RobotTask task;
-    task.robot_id = robot.id;
     Vertex at = kNoVertex;
-    std::string why = reports ? standsOnVertex(task, known->second, at) : "it does not report";
+    std::string why =
+        reports ? standsOnVertex(robot.start, known->second, at) : "it does not report";
     if (why.empty()) why = joinPart(robot, at);
     if (why.empty()) continue;
     ROS_WARN_THROTTLE(10, "robot %s cannot join: %s", robot.id.c_str(), why.c_str());
@@ -266,10 +298,10 @@ void FleetServer::nameThoseWaiting() {
 /// Of robots that join: what a restart has to know.
 void FleetServer::keepJoined(FleetSnapshot::Part& part) const {
   for (const JoiningDisc& robot : joined_) {
-    part.joined.push_back({robot.id, robot.place, fleet_->isJoining(robot.id)});
+    part.joined.push_back({robot.id, robot.place, fleet_->isJoining(robot.id), robot.start});
   }
   for (const JoiningDisc& robot : joining_next_) {
-    part.joined.push_back({robot.id, robot.place, true});
+    part.joined.push_back({robot.id, robot.place, true, robot.start});
   }
 }
 
@@ -280,7 +312,7 @@ void FleetServer::takeUpJoined(const FleetSnapshot::Part& kept) {
   for (const FleetSnapshot::Joined& of_file : kept.joined) {
     const std::optional<Vertex> goal = discs_->vertexFor(of_file.place);
     if (!goal) throw InputError("robot " + quote(of_file.id) + " has no vertex for its goal");
-    const JoiningDisc robot{of_file.id, *goal, of_file.place, ""};
+    const JoiningDisc robot{of_file.id, *goal, of_file.place, "", of_file.start};
     (of_file.waits ? joining_next_ : joined_).push_back(robot);
     if (!of_file.waits) discs_ = discs_->with(robot);
   }

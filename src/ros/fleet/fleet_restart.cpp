@@ -164,6 +164,7 @@ void FleetServer::takeUpFleet(const FleetSnapshot& kept, double now) {
   of_part.blocked.clear();
   fleet_ = std::make_unique<FleetExecution>(part.grid, of_part, part_options_, now);
   changeGrid({part.grid, discs_->geometry()});
+  for (const JoiningDisc& robot : joining_next_) placeAtStart(robot);
   for (const Cell cell : kept.blocked) blocked_.insert(grid_->geometry.indexOf(cell));
   enterPart(part);
 }

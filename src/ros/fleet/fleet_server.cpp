@@ -376,9 +376,7 @@ void FleetServer::keepPlaces() {
   for (const auto& [id, way] : left_out_) {
     Known& known = known_[id];
     if (known.hasPose() || way.empty()) continue;
-    const double resolution_m = geometry.info().resolution;
-    known.place = Cell{static_cast<std::int32_t>(std::floor(way.front().x / resolution_m)),
-                       static_cast<std::int32_t>(std::floor(way.front().y / resolution_m))};
+    known.place = cellUnder(way.front());
   }
   for (std::uint32_t robot = 0; robot < fleet_->robots(); ++robot) {
     Known& known = known_[fleet_->id(robot)];

@@ -163,6 +163,7 @@ class FleetServer {
   void locate(Known& known) const;
   std::optional<Cell> placeOf(const geometry_msgs::PoseStamped& pose) const;
   std::optional<Cell> cellAt(const std::optional<geometry_msgs::Point>& point) const;
+  Cell cellUnder(PlanePoint place) const;
   std::optional<PlanePoint> rasterPoint(const std::optional<geometry_msgs::Point>& point) const;
   std::optional<geometry_msgs::Point> poseOnMap(const geometry_msgs::PoseStamped& pose) const;
   void countRefused(const RobotProgress& message, const std::string& why);
@@ -181,12 +182,16 @@ class FleetServer {
   std::string tryToEnlist(const RobotTask& task, const Known& known);
   std::string tryToJoinPlan(const RobotTask& task, const Known& known);
   std::string tryToJoinDiscs(const RobotTask& task, const Known& known);
-  std::string whoseTopic(const std::string& id) const;
   bool takeBack(const std::string& id);
+  std::string whoseTopic(const std::string& id) const;
   bool isWaitingToJoin(const std::string& id) const;
-  std::string standsOnVertex(const RobotTask& task, const Known& known, Vertex& at) const;
+  std::string readStart(const RobotTask& task, const Known& known, JoiningDisc& robot) const;
+  std::string standsOnVertex(const std::optional<PlanePoint>& start, const Known& known,
+                             Vertex& at) const;
+  void placeAtStart(const JoiningDisc& robot);
   std::string readGoal(const RobotTask& task, Vertex at, JoiningDisc& robot) const;
   std::string whyNoEnd(const JoiningDisc& robot) const;
+  std::string waitToJoin(const JoiningDisc& robot, Vertex at);
   std::string joinPart(const JoiningDisc& robot, Vertex at);
   void letWaitingJoin(double now);
   void nameThoseNotJoined();
