@@ -96,10 +96,14 @@ void FleetServer::closeCells() {
   }
   for (const auto& [id, known] : known_) {
     if (!known.place || index_.count(id) > 0) continue;
+    const bool joins = fleet_->isJoining(id);
     // Those that join stand on vertices, and are far from all that is around.
-    if (fleet_->graph().closeMoves() && fleet_->isJoining(id)) continue;
+    if (fleet_->graph().closeMoves() && joins) continue;
     markNear(strangers, *known.place, distance_m);
-    if (known.point && !fleet_->graph().closeMoves()) markUnder(strangers, *known.point);
+    // A robot that joins may be off its cell's centre, as any of the fleet: its way may begin where
+    // it reaches into.
+    const bool is_on_cells = known.point && !fleet_->graph().closeMoves();
+    if (is_on_cells && !joins) markUnder(strangers, *known.point);
   }
   fleet_->setBlocked(blocked);
   fleet_->setStrangers(strangers);
