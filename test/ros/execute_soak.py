@@ -9,8 +9,10 @@ tests that run each time: it takes minutes, and its figures depend on the machin
                          a script that knows the bag alone.
   execute_soak.py death  robots carry out the plan, and some of them, drawn anew each time, die on the way:
                          each says FAULT, stands from then on, and is taken out by ~remove_robot. How long
-                         from its FAULT until the first routes come that are planned anew, and from the call
-                         until all others have a route that is younger? All arrive who still have a way.
+                         from its FAULT until the first routes come that are planned anew (planning), and
+                         from the call until each of the others was sent a route again (telling: routes go
+                         out at the next tick, whether they are planned anew or not)? All arrive who still
+                         have a way. Fails above 1 s of either, so it wants a machine that is not busy.
 
 exit codes: 0 all is well, 1 something is not (see the last lines)
 """
@@ -216,7 +218,7 @@ class DeathSoak(ExecuteSoak):
         for execution in range(self.options.executions):
             self.die_on_the_way(execution)
         self.tell("from a FAULT to the first routes that are planned anew", self.until_planned)
-        self.tell("from the call of ~remove_robot to younger routes of all", self.until_told)
+        self.tell("from the call of ~remove_robot until all were sent routes again", self.until_told)
         print("%d robots had no way to their goals" % self.without_way)
 
     def die_on_the_way(self, execution):
