@@ -148,10 +148,11 @@ SolveResult ConflictOptimizerSolver::placeAll(const SolveRequest& request,
       ruleOf(objective_).greatest_only ? 0 : std::min(settings_.slack, longest - bound);
   for (std::uint64_t step = 1; bound + slack <= longest; slack += step, step += (step + 3) / 4) {
     ++result.high_level_nodes;
+    if (slack >= bound) effort.jam_limit = 0;  // it is doubled already
     const auto outcome = placement.run(static_cast<std::uint32_t>(bound + slack), effort, deadline);
     result.low_level_expansions = placement.expansions();
     if (outcome == Placement::Outcome::kJammed) {
-      slack = std::max<std::uint64_t>(slack, bound);
+      slack = bound;
       effort.jam_limit = 0;
       effort.hasty = true;
       continue;

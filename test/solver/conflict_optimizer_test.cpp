@@ -55,6 +55,13 @@ TEST(ConflictOptimizer, SearchedOnInAJamThatALongerHorizonResolves) {
   EXPECT_LT(result.low_level_expansions, 1500000U);
 }
 
+TEST(ConflictOptimizer, GaveItsLongestHorizonUpForALongerOne) {
+  const Instance instance = test::generatedInstance(48, 0.35, 130, 3);
+  const SolveResult result = solve(instance, Objective::kSumOfCosts, {{"slack", "1000000"}});
+  ASSERT_EQ(result.termination, Termination::kSolved) << result.message;
+  EXPECT_TRUE(validate(instance, *result.plan).empty());
+}
+
 TEST(ConflictOptimizer, ThreadsDoNotChangeThePlan) {
   const Instance instance = test::generatedInstance(24, 0.2, 150);
   for (const Objective objective : {Objective::kMakespan, Objective::kSumOfCosts}) {
