@@ -89,18 +89,19 @@ std::uint8_t& DistanceTable::leastDetour(Vertex v) const {
 std::uint32_t DistanceTable::searchDetours(Vertex v) const {
   DetourSearch& search = *detours_;
   const Cell cell = search.guide.grid->cellOf(v);
+  const std::size_t worth_completing = graph_->size() / kShareWorthCompleting;
   // Only the first one tells what the map is like.
   const std::size_t most = search.expanded > 0
-                               ? std::size_t{graph_->size()}
+                               ? worth_completing
                                : kExpandedAStep * search.rowsAndColumns(cell) + kExpandedBesides;
   while (!isKnown(v)) {
+    if (search.expanded > worth_completing) {
+      complete();
+      return (*this)(v);
+    }
     const std::uint8_t detour = std::max(leastDetour(v), search.floorOf(cell));
     if (detour > DetourSearch::kMostDetour || search.expanded > most) {
       leaveDetours();
-      return (*this)(v);
-    }
-    if (search.expanded * kShareWorthCompleting > std::size_t{graph_->size()}) {
-      complete();
       return (*this)(v);
     }
     search.frames.clear();

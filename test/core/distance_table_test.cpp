@@ -300,6 +300,23 @@ TEST(DistanceTableOfDetours, KnowsThatAGoalIsOpenOnTheFarSideOnly) {
   EXPECT_LT(table.bytes(), 70000U) << "likewise";
 }
 
+TEST(DistanceTableOfDetours, SoughtOnAllOverTheMapForALaterQuestion) {
+  // A wall that is open at its upper end only, which is the last that is tried.
+  const std::uint32_t side = 300;
+  std::vector<bool> free(std::size_t{side} * side, true);
+  for (std::uint32_t y = 31; y < side; ++y) free[std::size_t{y} * side + 264] = false;
+  const Grid grid(side, side, free);
+  const Vertex goal = grid.vertexAt({270, 270});
+  const Vertex near = grid.vertexAt({285, 264});
+  const Vertex behind = grid.vertexAt({10, 30});
+  const DistanceTable whole(grid.graph(), goal);
+  const DistanceTable table = tableOfAPool(grid, goal, near);
+  EXPECT_EQ(table(near), whole(near));
+  EXPECT_FALSE(table.isShareable());
+  EXPECT_EQ(table(behind), whole(behind));
+  EXPECT_TRUE(table.isShareable()) << "it went on for two thirds of the map";
+}
+
 TEST(DistanceTablesOfAPool, SayTheSameWhateverIsGivenUp) {
   for (const std::size_t bytes : {std::size_t{1}, std::size_t{4000}, std::size_t{1} << 30U}) {
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
