@@ -59,6 +59,7 @@ void PlanRun::choose() {
   question.solvers = traits_;
   question.splits = splits();
   question.refines = request_.asked.refine_sec > 0;
+  question.one_by_one = !splits() && !hasRoomForAllTables();
   const AutoChoice choice = chooseMethod(question, CostModel::shipped());
   request_.solver = choice.solver;
   request_.solver_options.values = valuesOf(choice.solver);
@@ -90,9 +91,10 @@ bool PlanRun::refuseStepTables() {
 }
 
 bool PlanRun::hasRoomForAllTables() const {
-  if (!features_ || !instance_.isBounded()) return true;
-  const std::uint64_t all = std::uint64_t{2} * features_->robots * features_->cells;
-  return std::min(all, kTableBytesAStep * features_->sum_bound) <= kMostBytesOfTables;
+  if (!instance_.isBounded()) return true;
+  const std::uint64_t all = std::uint64_t{2} * instance_.robots() * instance_.graph().size();
+  const std::uint64_t met = kTableBytesAStep * report_.sum_of_costs_lower_bound;
+  return std::min(all, met) <= kMostBytesOfTables;
 }
 
 void PlanRun::keepTimeForLastResort(double expected_sec) {

@@ -108,7 +108,7 @@ std::vector<Candidate> candidates(const AutoQuestion& question, const CostModel&
 
 /// Leaves those that place robots one after another, where others are not to be trusted with them.
 void keepPlacing(const AutoQuestion& question, std::vector<Candidate>& methods) {
-  if (!isWideTeam(question.features)) return;
+  if (!isWideTeam(question.features) && !question.one_by_one) return;
   const auto places = [&](const Candidate& method) {
     return keepsStepTable(question.solvers, method.solver);
   };

@@ -18,6 +18,8 @@ struct AutoQuestion {
   SolverTable solvers;   ///< that there are
   bool splits = false;   ///< whether pieces are solved, not the whole
   bool refines = false;  ///< whether the first plan is only where refinement begins
+  /// Whether there is no memory for the distances of all robots at once.
+  bool one_by_one = false;
 };
 
 /// What `auto` stands for on this instance.

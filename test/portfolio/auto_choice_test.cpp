@@ -79,6 +79,19 @@ TEST(AutoChoice, LargeTeamsOnWideMapsWaitedForASearchThatTookFarMoreThanExpected
   EXPECT_EQ(chooseMethod(other, model).solver, "ecbs") << "nobody places robots";
 }
 
+TEST(AutoChoice, CalledASolverOfAllTablesFirstWhereThereIsNoRoomForThem) {
+  AutoQuestion asked = question(10);
+  asked.solvers["sturdy"].keeps_step_table = true;
+  const CostModel model(kModel);
+  EXPECT_EQ(chooseMethod(asked, model).solver, "quick");
+  asked.one_by_one = true;
+  EXPECT_EQ(chooseMethod(asked, model).solver, "sturdy");
+  asked.features.head_on = 1;
+  EXPECT_EQ(chooseMethod(asked, model).solver, "sturdy");
+  asked.solvers["sturdy"].keeps_step_table = false;
+  EXPECT_EQ(chooseMethod(asked, model).solver, "quick") << "there is nobody else";
+}
+
 TEST(AutoChoice, ALoosePlanBeforeRefinementWhereRobotsMeetHeadOn) {
   const CostModel model(R"(methods:
   - {solver: tight, objective: sum_of_costs, log_seconds: [-0.4, 0, 0, 0, 0, 0, 1],
