@@ -176,7 +176,7 @@ class Rolling::Run {
       addGoals(asked, robot, itinerary);
       if (itinerary.count == 0 || !asked.may_move) {
         progress_.forget(asked.id);
-      } else if (going++ < admission_.limit()) {
+      } else if (isHopeless(asked.id) || going++ < admission_.limit()) {
         weighDelay(asked, robot, *held_[held], itinerary);
       } else {
         progress_.rest(asked.id, now_);
@@ -186,6 +186,13 @@ class Rolling::Run {
     }
     std::sort(cut_off_.begin(), cut_off_.end());
     held_before_.clear();
+  }
+
+  /// Whether nobody could lead a robot that is stuck. One that goes in a crowd takes no other's
+  /// place, and is no sign of a jam: perhaps it can never arrive.
+  bool isHopeless(std::uint32_t id) const {
+    const std::uint32_t stuck = progress_.stuckFor(id, now_);
+    return stuck >= kPatience * options_.window && escorts_.hasNone(id, stuck, now_);
   }
 
   /// Sees to how many of a crowd go from the next window on.
@@ -204,7 +211,7 @@ class Rolling::Run {
     if (is_excused) return;
     is_slow_ = is_slow_ || stuck >= kSlowWindows * options_.window;
     if (stuck < kPatience * options_.window) return;
-    ++waiting_;
+    waiting_ += isHopeless(asked.id) ? 0 : 1;
     const bool is_old = asked.age >= kOldWindows * options_.window;
     if (!is_old && stuck < patience_ * options_.window) return;
     stuck_.push_back({robot, stuck, &slope, progress_.best(asked.id)});
@@ -319,7 +326,7 @@ class Rolling::Run {
   std::vector<WindowStart> starts_;
   FleetChecker checker_;
   Admission admission_;
-  std::uint32_t waiting_ = 0;  // robots that have gained nothing for kPatience
+  std::uint32_t waiting_ = 0;  // robots that have gained nothing for kPatience, not hopeless
   std::uint32_t resting_ = 0;
   bool is_crowded_ = false;
   bool is_slow_ = false;                // somebody has gained nothing for kSlowWindows

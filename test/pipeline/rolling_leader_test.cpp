@@ -150,6 +150,35 @@ TEST(Admission, LetsFewerGoInAJamAndSlowlyMoreBehindIt) {
   EXPECT_GE(admission.limit(), 100U);
 }
 
+/// A hall, and a corridor beside it in which two robots want to change places, and cannot.
+RollTask hallBesideACorridor(const Grid& grid) {
+  RollTask task;
+  task.starts = {grid.vertexAt({0, 4}), grid.vertexAt({2, 4})};
+  task.goals = {{task.starts[1]}, {task.starts[0]}};
+  RandomEngine engine(1);
+  constexpr std::uint32_t kHall = 12;  // its vertices are the first
+  for (const Vertex start : {0U, 1U, 2U, 3U, 4U, 5U}) {
+    task.starts.push_back(start);
+    std::vector<Vertex>& goals = task.goals.emplace_back();
+    for (Vertex last = start; goals.size() < 500; last = goals.back()) {
+      const auto next = static_cast<Vertex>(drawBelow(engine, kHall - 1));
+      goals.push_back(next < last ? next : next + 1);
+    }
+  }
+  return task;
+}
+
+TEST(Rolling, RobotsThatCanNeverArriveDoNotMakeTheOthersRest) {
+  const GridPtr grid = gridFromAscii({"....", "....", "....", "####", "...#"});
+  RollOptions options;
+  options.steps = 600;
+  options.warmup = 300;
+  options.rolling.window = 13;
+  options.step_expansions = 500;
+  const RollReport report = roll(grid, hallBesideACorridor(*grid), options);
+  EXPECT_GT(report.throughput, 1);
+}
+
 TEST(Rolling, AJamInACrowdIsUndoneLikewiseAtAnyNumberOfThreads) {
   GeneratorOptions map;
   map.width = map.height = 14;

@@ -81,11 +81,9 @@ void Escorts::add(const MoveGraph& graph, const RollingQuestion& fleet,
   for (const StuckRobot& robot : stuck) {
     if (searches == kMostSearches || led * kLeastShare > graph.size()) return;
     const std::uint32_t id = fleet.robots[robot.index].id;
-    std::uint64_t& next_try = next_try_[id];
-    // One that has gained since begins anew.
-    if (next_try + robot.steps < now + patience) next_try = 0;
     // Who is in a region already, or has just been looked at, waits.
-    if (now < next_try || barred[fleet.robots[robot.index].prefix.back()]) continue;
+    const bool was_tried = hasNone(id, robot.steps, now) && now < failed_[id] + patience;
+    if (was_tried || barred[fleet.robots[robot.index].prefix.back()]) continue;
     EscortQuestion question;
     question.graph = &graph;
     question.fleet = &fleet;
@@ -99,11 +97,16 @@ void Escorts::add(const MoveGraph& graph, const RollingQuestion& fleet,
       led += escort->region.size();
       for (const Vertex v : escort->region) barred[v] = true;
       escorts_.push_back(std::move(*escort));
-      next_try = 0;
+      failed_.erase(id);
     } else {
-      next_try = now + patience;
+      failed_[id] = now;
     }
   }
+}
+
+bool Escorts::hasNone(std::uint32_t id, std::uint32_t stuck, std::uint64_t now) const {
+  const auto failed = failed_.find(id);
+  return failed != failed_.end() && now <= failed->second + stuck;
 }
 
 void Escorts::bar(std::vector<bool>& barred) const {

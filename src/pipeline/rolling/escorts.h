@@ -29,6 +29,9 @@ class Escorts {
   void add(const MoveGraph& graph, const RollingQuestion& fleet, const std::vector<bool>& closed,
            std::vector<StuckRobot> stuck, std::uint64_t now, std::uint32_t patience);
 
+  /// Whether no escort was found for a robot that has gained nothing since.
+  /// @param stuck  steps for which it has gained nothing
+  bool hasNone(std::uint32_t id, std::uint32_t stuck, std::uint64_t now) const;
   std::uint32_t size() const { return static_cast<std::uint32_t>(escorts_.size()); }
   const std::vector<Escort>& all() const { return escorts_; }
   /// Marks the regions.
@@ -36,7 +39,7 @@ class Escorts {
 
  private:
   std::vector<Escort> escorts_;
-  std::unordered_map<std::uint32_t, std::uint64_t> next_try_;  // step, by id
+  std::unordered_map<std::uint32_t, std::uint64_t> failed_;  // last, at step, by id
 };
 
 }  // namespace split_mapf::rolling
