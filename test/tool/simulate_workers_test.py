@@ -57,4 +57,9 @@ class SimulateWorkersTest(CommandTest):
     def test_other_files_are_refused(self):
         self.write("plan.json", "{}")
         self.assertIn("no result of plan", self.simulate(self.path("plan.json"), code=1).stderr)
-        self.simulate(self.path("plan.json"), "--machines", "0", code=2)
+        for wrong in [("--machines", "0"), ("--threads", "0"), ("--journey", "-1"), ("--least", "nan")]:
+            said = self.simulate(self.path("plan.json"), *wrong, code=2).stderr
+            self.assertIn("argument %s: invalid" % wrong[0], said)
+
+    def test_rounds_are_told_only_by_phases(self):
+        self.assertEqual(self.seconds_of([(0, 1), (0, 1)], "--machines", "2"), {2: 1.5})
