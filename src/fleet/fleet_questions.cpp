@@ -38,8 +38,10 @@ std::optional<FleetQuestion> FleetExecution::ask(double now) {
   const bool rings = rings_ > 0 && !options_.joint_rings && graph_.release() > 0;
   if (!stalled && !rings && !options_.replans) return std::nullopt;
   // What an earlier try could not take out another may, from other places and with another seed.
-  if (stalled && questions_ > 0) ++stalls_;
-  return makeQuestion(stalled && questions_ > 0);
+  const bool anew = stalled && questions_ > 0;
+  FleetQuestion question = makeQuestion(anew);
+  if (anew) ++stalls_;
+  return question;
 }
 
 /// Once a step, and at once when something is new.
@@ -156,6 +158,7 @@ FleetQuestion FleetExecution::makeQuestion(bool anew) {
           avoid,
           ground_,
           !anyMayMove(),
+          stalls_ > 0,
           closedEdges()};
 }
 

@@ -151,7 +151,8 @@ class FleetRun {
     std::vector<bool> shunned(open->size(), false);
     for (std::uint32_t tries = 0; tries < kPlacesTried && ringsStay(); ++tries) {
       const std::vector<Vertex> before = answer_.ground->instance.goals();
-      for (const Rotation& ring : rings_) {
+      // Where there was no plan at all, the rings of the answer are still those to leave.
+      for (const Rotation& ring : rings_.empty() ? best_rings_ : rings_) {
         for (const Edge& edge : ring.edges) shunned[edge.first] = shunned[edge.second] = true;
       }
       FleetGoals chosen = goalsOn(*open, shunned);
@@ -175,24 +176,47 @@ class FleetRun {
     tryToPlan(planner, request);
   }
 
-  /// Where all have tried and nobody can get on, a robot of the rings gives up its goal if that
-  /// leaves fewer rings, then another: better one that is named than all who stand for good.
+  /// Where plans made anew have moved nobody, a robot of the rings gives up its goal if that leaves
+  /// fewer rings, or two of a ring do, or all of it, then others: better some that are named than
+  /// all who stand for good.
   void giveUpForTheOthers(const std::shared_ptr<const Grid>& open, const Planner& planner,
                           const PlanRequest& request) {
-    for (bool gained = question_.stalled; gained && ringsStay();) {
+    for (bool gained = question_.stalled && question_.stalled_before; gained && ringsStay();) {
       gained = false;
-      for (const std::uint32_t robot : robotsOf(rings_)) {
-        if (!mayGiveUp(robot) || deadline_.expired()) continue;
-        const std::vector<GoalFault> faults = answer_.faults;
-        const std::uint32_t rings = answer_.rings;
-        answer_.faults[robot] = GoalFault::kNoWay;
-        const FleetGoals chosen = goalsOn(*open);
-        if (chosen.faults == answer_.faults) planTo(chosen.goals, open, planner, request);
-        gained = answer_.rings < rings;
+      for (const std::vector<std::uint32_t>& group : groupsOf(ringsOfThoseWhoMay())) {
+        gained = giveUp(group, open, planner, request);
         if (gained) break;
-        answer_.faults = faults;
       }
     }
+  }
+
+  /// Of the answer so far, without robots that have given up already.
+  std::vector<Rotation> ringsOfThoseWhoMay() const {
+    std::vector<Rotation> rings = best_rings_;
+    const auto may_not = [this](std::uint32_t robot) { return !mayGiveUp(robot); };
+    for (Rotation& ring : rings) {
+      ring.robots.erase(std::remove_if(ring.robots.begin(), ring.robots.end(), may_not),
+                        ring.robots.end());
+    }
+    return rings;
+  }
+
+  /// The robots give up their goals if that leaves fewer rings. @return whether it does.
+  bool giveUp(const std::vector<std::uint32_t>& robots, const std::shared_ptr<const Grid>& open,
+              const Planner& planner, const PlanRequest& request) {
+    if (deadline_.expired()) return false;
+    const std::vector<GoalFault> faults = answer_.faults;
+    const std::uint32_t rings = answer_.rings;
+    for (const std::uint32_t robot : robots) answer_.faults[robot] = GoalFault::kNoWay;
+    const FleetGoals chosen = goalsOn(*open);
+    if (chosen.faults == answer_.faults) {
+      planTo(chosen.goals, open, planner, request);
+      // They may stand where the others have to pass.
+      makeRoomToTurn(open, planner, request);
+    }
+    if (answer_.rings < rings) return true;
+    answer_.faults = faults;
+    return false;
   }
 
   /// Of the plan that is the answer so far.
@@ -248,6 +272,7 @@ class FleetRun {
     if (answer_.execution && answer_.rings <= rings) return plan;
     answer_.message.clear();
     answer_.rings = rings;
+    best_rings_ = rings_;
     answer_.execution = std::move(joined);
     return plan;
   }
@@ -272,8 +297,9 @@ class FleetRun {
   std::vector<Vertex> starts_;
   std::vector<bool> takes_part_;  // of those that join, too; plans made anew
   FleetAnswer answer_;
-  std::vector<Rotation> rings_;  // of the last plan
-  bool is_cut_ = false;          // whether the ground lacks some of their edges
+  std::vector<Rotation> rings_;       // of the last plan
+  std::vector<Rotation> best_rings_;  // of the plan that is the answer
+  bool is_cut_ = false;  // whether the ground lacks some edges of the last plan's rings
 };
 
 }  // namespace

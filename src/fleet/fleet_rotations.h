@@ -17,7 +17,9 @@ struct Rotation {
 /// Of each ring. Cost: O(events of rings).
 std::vector<Rotation> rotationsOf(const ExecutionGraph& graph);
 
-/// Who rotates somewhere, ascending.
-std::vector<std::uint32_t> robotsOf(const std::vector<Rotation>& rotations);
+/// Groups of robots that may leave fewer rings by giving up their goals, the smallest first: each
+/// robot of a ring, any two of a ring of up to 8, and each ring as a whole. Robots are ascending in
+/// each group. Cost: O(robots of rings), times 8.
+std::vector<std::vector<std::uint32_t>> groupsOf(const std::vector<Rotation>& rotations);
 
 }  // namespace split_mapf

@@ -275,6 +275,13 @@ TEST(FleetRuns, GiveUpAGoalForWhichAnotherCouldNotMakeRoom) {
   everythingGoesWrong(run, count);
 }
 
+TEST(FleetRuns, GiveUpTwoGoalsOfARingWhereOneIsNotEnough) {
+  // One stands between a lane and a square that is full, another one wants to the lane's end.
+  Count count;
+  Drive run(503099);
+  everythingGoesWrong(run, count);
+}
+
 TEST(FleetRuns, AreTakenUpAgainOnPlanningGraphs) { forSeeds(20, takeUpAgain, 20, planningSceneOf); }
 
 }  // namespace

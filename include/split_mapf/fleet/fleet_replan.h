@@ -54,6 +54,7 @@ struct FleetQuestion {
   bool avoid_rings = true;
   std::shared_ptr<FleetGround> ground;  ///< of the last answer; null: none yet
   bool stalled = false;                 ///< no robot has leave to go on
+  bool stalled_before = false;          ///< and a plan made anew for that has moved nobody
   /// Edges that come too near to robots that take no part, ascending; none on a grid.
   std::vector<Edge> closed_edges = {};
 
@@ -79,7 +80,8 @@ struct FleetAnswer {
 
 /// Answers a question. Anew: every robot that takes part is planned from where its promise ends to
 /// its goal, on the cells that are open; whoever has no way is brought to the nearest cell where
-/// no robot wants to go. What is planned is validated. Never throws for lack of a plan.
+/// no robot wants to go. Where robots stalled before, and could only rotate, one of them or a few
+/// give up their goals. What is planned is validated. Never throws for lack of a plan.
 /// Thread-safe for different grounds. Cost: a plan, or the budget of a replan.
 /// @param request  solver and limits of plans made anew.
 FleetAnswer answerFleet(const FleetQuestion& question, const Planner& planner,
