@@ -62,7 +62,9 @@ PlanReport PlanRun::run() {
       report_.message = "solved; then memory ran out";
     }
   }
-  if (!report_.plan) report_.message += whatIsKnown(report_, request_, last_resort_);
+  if (!report_.plan) {
+    report_.message += whatIsKnown(report_, request_, hasRoomForAllTables() ? last_resort_ : "");
+  }
   if (!report_.optimal) report_.certified_by.clear();
   log_.leaveStage();
   report_.stages = log_.stages();

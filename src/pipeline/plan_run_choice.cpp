@@ -91,10 +91,10 @@ bool PlanRun::refuseStepTables() {
 }
 
 bool PlanRun::hasRoomForAllTables() const {
-  if (!instance_.isBounded()) return true;
-  const std::uint64_t all = std::uint64_t{2} * instance_.robots() * instance_.graph().size();
   const std::uint64_t met = kTableBytesAStep * report_.sum_of_costs_lower_bound;
-  return std::min(all, met) <= kMostBytesOfTables;
+  // Where memory ran out before it was known the graph may not be there.
+  if (!instance_.isBounded() || met <= kMostBytesOfTables) return true;
+  return std::uint64_t{2} * instance_.robots() * instance_.graph().size() <= kMostBytesOfTables;
 }
 
 void PlanRun::keepTimeForLastResort(double expected_sec) {
