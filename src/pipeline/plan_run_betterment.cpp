@@ -87,7 +87,7 @@ void PlanRun::refineWithin(double seconds) {
 }
 
 void PlanRun::takeTurnsOut() {
-  if (step_table_.isTooLarge()) {
+  if (step_table_.isTooLargeForEachThread()) {
     report_.message += "; not straightened: " + step_table_.describe();
     return;
   }

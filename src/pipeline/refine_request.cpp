@@ -3,7 +3,7 @@
 namespace split_mapf {
 
 std::string whyNotRefined(const PlanReport& report, const StepTable& table) {
-  if (table.isTooLarge()) return "; not refined: " + table.describe();
+  if (table.isTooLargeForEachThread()) return "; not refined: " + table.describe();
   if (canRefine(report.objective)) return "";
   return "; not refined: there is no refinement for objective " + toString(report.objective);
 }

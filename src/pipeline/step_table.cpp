@@ -21,6 +21,8 @@ StepTable::StepTable(const Instance& instance, std::uint32_t steps) {
 
 bool StepTable::isTooLarge() const { return mebibytes_ > most_mebibytes_; }
 
+bool StepTable::isTooLargeForEachThread() const { return mebibytes_ > kMostMebibytes; }
+
 bool StepTable::isImpossible() const { return mebibytes_ > kMostAskedForMebibytes; }
 
 std::string StepTable::describe(const std::string& whose) const {

@@ -17,6 +17,8 @@ class StepTable {
 
   /// None is made then unless its solver was asked for.
   bool isTooLarge() const;
+  /// Improving a plan keeps one or more for each thread: none of these is made then.
+  bool isTooLargeForEachThread() const;
   /// Not even then.
   bool isImpossible() const;
   /// "a table of steps WHOSE would take 300 MiB". @param whose  begins with a blank; or is empty.

@@ -72,5 +72,11 @@ TEST(Crowd, WasSentToASolverOfManyTablesToSaveOneOfSteps) {
   EXPECT_TRUE(StepTable(resting(4096), 3 * kSteps).isTooLarge());
 }
 
+TEST(Crowd, KeptATableOfStepsForEachThreadThatImprovesItsPlan) {
+  constexpr std::uint32_t kSteps = 400000;  // of 4900 cells: 233 MiB
+  EXPECT_TRUE(StepTable(resting(4096), kSteps).isTooLargeForEachThread());
+  EXPECT_FALSE(StepTable(resting(4096), kSteps / 2).isTooLargeForEachThread());
+}
+
 }  // namespace
 }  // namespace split_mapf
