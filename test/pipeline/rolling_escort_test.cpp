@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "pipeline/rolling/progress.h"
@@ -109,6 +111,26 @@ TEST(Rolling, ExcusesStepsInWhichARobotStandsAndNoneInWhichItMoves) {
   EXPECT_FALSE(excuse(1, 14));
   EXPECT_FALSE(excuse(2, 15));
   EXPECT_EQ(progress.stuckFor(1, 15), 2U);
+}
+
+TEST(Rolling, WhoWasPushedFarAwayWhileItRestedSoonGainsAgain) {
+  const GridPtr grid = gridFromAscii({std::string(50, '.')});
+  const rolling::MoveGraph graph(*grid);
+  rolling::SlopeCache slopes(graph, 1 << 20);
+  rolling::Progress progress;
+  const Vertex goal = grid->vertexAt({49, 0});
+  std::uint64_t now = 0;
+  const auto come = [&](int x) {
+    progress.note(graph, 1, grid->vertexAt({x, 0}), goal, *slopes.find(goal), ++now);
+  };
+  come(45);
+  for (int x = 44; x >= 5; --x) {
+    come(x);
+    progress.rest(1, now);
+  }
+  for (int x = 6; x <= 25; ++x) come(x);
+  EXPECT_EQ(progress.stuckFor(1, now), 0U);
+  EXPECT_EQ(progress.best(1), 24U);
 }
 
 /// Binds robots to as much of what they were told as they may stop behind.

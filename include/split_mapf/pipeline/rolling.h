@@ -66,20 +66,21 @@ struct RollingAnswer {
 /// the steps that they still have to go at the window's end, over this goal and the next ones.
 /// Groups of 2 to 8 of them, a delayed one and those in its way, are planned anew together among
 /// the others, by searches over (vertex, step, goals reached). A robot that comes no nearer to its
-/// goal for three windows, or ten where robots take more than two fifths of the vertices, is led on
-/// by a search that is complete for it, whoever is around making room; steps in which it stands
-/// because it is bound to do not count. Where such a crowd jams, only some of the robots go, by
-/// priority and age, and the others rest as if they were idle, until it flows again.
+/// goal for three windows is led on by a search that is complete for it, whoever is around making
+/// room; where robots take more than two fifths of the vertices, and it has been after its goal for
+/// fewer than twenty windows, only after ten. Steps in which it stands because it is bound to do
+/// not count. Where such a crowd jams, only some of the robots go, by priority and age, and beside
+/// them those that could not be led; the others rest as if they were idle, until it flows again.
 ///
 /// At any thread count the same questions and numbers of expansions give the same answers; a clock
 /// chooses only how often improve() is called. Every answer has passed a check of its own.
 /// Every robot may stop at the end of its prefix: a question in which that would be a collision is
 /// refused. Distances are kept by goal, a byte a vertex, within `cache_bytes`, or what the robots
 /// need now. Not thread-safe. Source: windows after Li et al. (RHCR, AAAI 2021); the rest is ours.
-/// Cost: begin() O(robots * window), and a breadth-first search for each goal that is new, by all
-/// threads; the first improve() the same for goals behind it, and where a robot is stuck at most
-/// two searches that visit 100,000 vertices each and one more window, in a crowd two; memory about
-/// 250 bytes a vertex, and 109 a thread.
+/// Cost: begin() O(robots * window + vertices), and a breadth-first search for each new goal, by
+/// all threads; the first improve() the same for goals behind it, and where a robot is stuck at
+/// most two searches that visit 100,000 vertices each and one more window, in a crowd two; memory
+/// about 250 bytes a vertex, and 109 a thread.
 class Rolling {
  public:
   /// @throws OptionError for a window or a number of threads out of range; InputError where a

@@ -37,8 +37,9 @@ struct LeaderMove {
 /// vertex where one is free on that side, as those in between make room one after the other. Where
 /// none is, it has to back off until robots can pass it. So a state is the leader's vertex and the
 /// number of free vertices in each part that it cuts off from the others; best-first by moves of
-/// the leader and of what makes room for it. Source: the problem is that of Papadimitriou et al.,
-/// "Motion planning on a graph" (FOCS 1994); the search is ours. Not thread-safe.
+/// the leader and steps in which a part behind it is emptied, not those of what steps aside.
+/// Source: the problem is that of Papadimitriou et al., "Motion planning on a graph" (FOCS 1994);
+/// the search is ours. Not thread-safe.
 class LeaderSearch {
  public:
   /// @pre the leader is inside; what the question points to outlives this object.

@@ -1,6 +1,15 @@
 #include "pipeline/rolling/progress.h"
 
+#include <algorithm>
+
 namespace split_mapf::rolling {
+namespace {
+
+// Steps that a robot may have to go for its first gain once it has rested: one that is pushed about
+// does not count as stuck on its way back, nor as gaining all the time.
+constexpr std::uint32_t kMostBehind = 16;
+
+}  // namespace
 
 std::uint32_t Progress::note(const MoveGraph& graph, std::uint32_t id, Vertex at, Vertex goal,
                              const Slope& slope, std::uint64_t now) {
@@ -41,6 +50,12 @@ bool Progress::excuse(std::uint32_t id) {
   Robot& robot = robots_.at(id);
   if (robot.stands) robot.since += robot.passed;
   return robot.stands;
+}
+
+void Progress::rest(std::uint32_t id, std::uint64_t now) {
+  Robot& robot = robots_.at(id);
+  robot.best = std::max(robot.best, robot.left - std::min(robot.left, kMostBehind));
+  robot.since = now;
 }
 
 std::uint32_t Progress::stuckFor(std::uint32_t id, std::uint64_t now) const {

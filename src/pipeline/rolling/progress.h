@@ -21,8 +21,9 @@ class Progress {
   /// Leaves the steps since the robot was noted before out of those without a gain, where it stands
   /// as it did then: it was bound to. Once after each note(). @return whether it stands so.
   bool excuse(std::uint32_t id);
-  /// Of a robot that rests: it gains nothing, and is not stuck. @pre the robot was noted.
-  void rest(std::uint32_t id, std::uint64_t now) { robots_.at(id).since = now; }
+  /// Of a robot that rests: it gains nothing, and is not stuck. Others may push it far away, so
+  /// what was the nearest counts as a few steps from where it is at most. @pre it was noted.
+  void rest(std::uint32_t id, std::uint64_t now);
   /// Steps for which the robot has gained nothing, but those that were excused.
   std::uint32_t stuckFor(std::uint32_t id, std::uint64_t now) const;
   /// The least distance to its goal so far [steps]. @pre the robot was noted.
