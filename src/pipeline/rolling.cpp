@@ -214,7 +214,8 @@ class Rolling::Run {
     waiting_ += isHopeless(asked.id) ? 0 : 1;
     const bool is_old = asked.age >= kOldWindows * options_.window;
     if (!is_old && stuck < patience_ * options_.window) return;
-    stuck_.push_back({robot, stuck, &slope, progress_.best(asked.id)});
+    const bool is_urgent = stuck >= kOldWindows * options_.window;
+    stuck_.push_back({robot, stuck, &slope, progress_.best(asked.id), is_urgent});
   }
 
   /// As many as can be met within the window, and are at hand.

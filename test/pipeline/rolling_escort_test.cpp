@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "pipeline/rolling/escort.h"
 #include "pipeline/rolling/progress.h"
 #include "pipeline/rolling_scenes.h"
 #include "split_mapf/core/fleet_check.h"
+#include "split_mapf/core/random.h"
 #include "support/ascii_grid.h"
 
 namespace split_mapf {
@@ -191,6 +194,58 @@ TEST(RollingEscorts, AreSoughtWhenAValidWindowIsThere) {
     }
   }
   FAIL() << "nobody was led";
+}
+
+/// A warehouse's floor: open, or aisles of one cell along shelves and two across.
+GridPtr floorOf(bool has_shelves) {
+  std::vector<std::string> rows(63, std::string(161, '.'));
+  for (std::size_t y = 0; has_shelves && y < rows.size(); ++y) {
+    for (std::size_t x = 0; y % 3 != 0 && x < rows[y].size(); ++x) {
+      if (x % 12 > 1) rows[y][x] = '#';
+    }
+  }
+  return gridFromAscii(rows);
+}
+
+/// A leader on its way through others who stand anywhere.
+RollingQuestion throughOthers(const Grid& grid, Cell from, Cell to, std::uint64_t percent) {
+  RollingQuestion fleet;
+  const Vertex start = grid.vertexAt(from);
+  fleet.robots = {robotAt(0, start, {grid.vertexAt(to)})};
+  RandomEngine engine(7);
+  for (Vertex v = 0; v < grid.size(); ++v) {
+    if (v == start || drawBelow(engine, 100) >= percent) continue;
+    fleet.robots.push_back(robotAt(static_cast<std::uint32_t>(fleet.robots.size()), v, {}));
+  }
+  return fleet;
+}
+
+TEST(RollingEscorts, LeadAnUrgentRobotWhoseGoalIsFarAShortWay) {
+  for (const bool has_shelves : {false, true}) {
+    const GridPtr grid = floorOf(has_shelves);
+    const rolling::MoveGraph graph(*grid);
+    rolling::SlopeCache slopes(graph, 1U << 20U);
+    const std::vector<bool> closed(graph.size(), false);
+    for (const int steps : {20, 40, 100}) {
+      const Cell to{20 + steps, 30};
+      const auto slope = slopes.find(grid->vertexAt(to));
+      for (const std::uint64_t percent : {10, 50}) {
+        const RollingQuestion fleet = throughOthers(*grid, {20, 30}, to, percent);
+        rolling::EscortQuestion question;
+        question.graph = &graph;
+        question.fleet = &fleet;
+        question.closed = &closed;
+        question.slope = slope.get();
+        question.best = static_cast<std::uint32_t>(steps);
+        question.is_urgent = true;
+        const std::optional<rolling::Escort> escort = rolling::findEscort(question);
+        ASSERT_TRUE(escort) << steps << " steps, " << percent << " % taken";
+        EXPECT_LE(slope->distance(graph, escort->target, 1000), question.best - 8);
+        EXPECT_EQ(escort->paths[0].back(), escort->target);
+        expectValid(*grid, escort->paths, static_cast<std::uint32_t>(escort->paths[0].size() - 1));
+      }
+    }
+  }
 }
 
 }  // namespace

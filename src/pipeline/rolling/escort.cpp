@@ -9,9 +9,11 @@
 namespace split_mapf::rolling {
 namespace {
 
-// Steps that a leader gains where its goal is not nearer, the region that it is led through at
-// first, and the vertices that are visited for one escort, about.
+// Steps that a leader gains where its goal is not nearer, and where it is urgent (where there is
+// room around it, more are beyond the visits); the region that it is led through at first, and the
+// vertices that are visited for one escort, about.
 constexpr std::uint32_t kGain = 32;
+constexpr std::uint32_t kUrgentGain = 8;
 constexpr std::uint32_t kFirstRadius = 16;
 constexpr std::uint64_t kVisits = 100000;
 
@@ -41,6 +43,9 @@ class EscortTry {
     search.slope = question_.slope;
     search.left = question_.slope->distance(*question_.graph, search.leader, 0xffffffffU);
     search.aim = question_.best - std::min(question_.best, kGain);
+    if (question_.is_urgent && search.left > search.aim + kFirstRadius) {
+      search.aim = question_.best - std::min(question_.best, kUrgentGain);
+    }
     if (search.left <= search.aim) return std::nullopt;
     search.visits = kVisits;
     std::size_t before = 0;

@@ -28,6 +28,7 @@ struct EscortQuestion {
   std::uint32_t leader = 0;                   ///< index in the fleet
   const Slope* slope = nullptr;               ///< to the leader's goal
   std::uint32_t best = 0;                     ///< how near it has been [steps]
+  bool is_urgent = false;                     ///< led a short way where its goal is far
 };
 
 /// Finds an escort. Its region is what the plan touches, and what its members are bound to beside.

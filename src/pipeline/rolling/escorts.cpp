@@ -91,6 +91,8 @@ void Escorts::add(const MoveGraph& graph, const RollingQuestion& fleet,
     question.leader = robot.index;
     question.slope = robot.slope;
     question.best = robot.best;
+    // One at a time: with many short escorts the others lose more than these robots gain.
+    question.is_urgent = robot.is_urgent && escorts_.empty();
     ++searches;
     std::optional<Escort> escort = findEscort(question);
     if (escort) {

@@ -15,6 +15,7 @@ struct StuckRobot {
   std::uint32_t steps = 0;  ///< for which it has gained nothing
   const Slope* slope = nullptr;
   std::uint32_t best = 0;
+  bool is_urgent = false;
 };
 
 /// The escorts under way. Their regions do not touch each other.
