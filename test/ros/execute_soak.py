@@ -26,12 +26,13 @@ import sys
 import time
 
 # First: it chooses the master's port.
-from move_soak import OUTCOMES, Soak, cpu_and_memory, run_to_end
+from soak_run import OUTCOMES, cpu_and_memory, run_to_end
 import actionlib
 import rospy
 from nav_msgs.msg import OccupancyGrid
 
 from fleet_case import make_plan
+from move_soak import Soak
 from ros_processes import SentGoal, start_program, wait_until
 from split_mapf.msg import (ExecutePlanAction, ExecutePlanGoal, MultiRobotPlan, PlanOutcome, RobotPath,
                             RobotProgress, RobotRoute, RobotState)

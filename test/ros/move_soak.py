@@ -19,7 +19,6 @@ import json
 import os
 import random
 import signal
-import socket
 import statistics
 import struct
 import subprocess
@@ -28,11 +27,9 @@ import tempfile
 import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-with socket.socket() as probe:
-    probe.bind(("localhost", 0))
-    PORT = probe.getsockname()[1]
-os.environ["ROS_MASTER_URI"] = "http://localhost:%d" % PORT
 
+# First: it chooses the master's port.
+from soak_run import OUTCOMES, SoakRun, cpu_and_memory, run_to_end  # noqa: E402
 import roslib.packages  # noqa: E402
 import rospy  # noqa: E402
 from nav_msgs.msg import OccupancyGrid  # noqa: E402
@@ -46,17 +43,6 @@ from split_mapf.srv import BlockCells  # noqa: E402
 # How robots are late: the chance of one that is not, a step, and for how long [steps].
 DELAY_PROBABILITY, DELAYS = 0.0005, (10, 30)
 LEAST_SHARE_OF_ROLL = 0.85
-
-OUTCOMES = {value: name for name, value in vars(PlanOutcome).items()
-            if name.isupper() and isinstance(value, int)}
-
-
-def cpu_and_memory(pid):
-    """Seconds of CPU and MiB of memory of a process."""
-    with open("/proc/%d/stat" % pid, encoding="ascii") as file:
-        fields = file.read().rsplit(")", 1)[1].split()
-    ticks = os.sysconf("SC_CLK_TCK")
-    return (int(fields[11]) + int(fields[12])) / ticks, int(fields[21]) * 4096 / 2 ** 20
 
 
 class Movements:
@@ -85,16 +71,12 @@ class Movements:
             del self.awaited[robot]
 
 
-class Soak:
+class Soak(SoakRun):
     def __init__(self, arguments):
+        super().__init__("move_soak")
         self.options = arguments
         self.draw = random.Random(arguments.seed)
-        self.programs = []
-        self.wrong = []
         self.directory = tempfile.TemporaryDirectory()
-        self.start(Program("roscore", "-p", str(PORT)))
-        wait_until(self.has_master)
-        rospy.init_node("move_soak", disable_signals=True)
         width, height = arguments.size
         self.grid, _ = make_plan(self.directory.name, 2, width, height, arguments.step)
         self.cells = free_cells(self.grid)
@@ -104,15 +86,6 @@ class Soak:
 
     def take_state(self, message):
         self.state = message
-
-    @staticmethod
-    def has_master():
-        with socket.socket() as master:
-            return master.connect_ex(("localhost", PORT)) == 0
-
-    def start(self, program):
-        self.programs.append(program)
-        return program
 
     def publish_starts(self):
         free = [index for index, value in enumerate(self.grid.data) if value == 0]
@@ -151,10 +124,6 @@ class Soak:
         clients = [PlainClient("client_%d" % i) for i in range(self.options.clients)]
         wait_until(lambda: all(client.is_connected() for client in clients))
         return clients
-
-    def require(self, is_well, what):
-        if not is_well:
-            self.wrong.append(what)
 
     def random_task(self, robot):
         return goal_of(task(robot, *self.draw.choice(self.cells)))
@@ -348,20 +317,8 @@ class Soak:
         self.require(found.returncode == 0, "robots came too close")
 
     def end(self):
-        for program in reversed(self.programs):
-            program.end()
+        super().end()
         self.directory.cleanup()
-
-
-def run_to_end(soak, run):
-    """Runs a part of it, ends its programs and says what was wrong. @return the exit code."""
-    try:
-        run()
-    finally:
-        soak.end()
-    for what in soak.wrong[:10]:
-        print("wrong: " + what)
-    return 1 if soak.wrong else 0
 
 
 def main():

@@ -19,28 +19,23 @@ import copy
 import os
 import random
 import signal
-import socket
 import sys
 import threading
 import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-with socket.socket() as probe:
-    probe.bind(("localhost", 0))
-    PORT = probe.getsockname()[1]
-os.environ["ROS_MASTER_URI"] = "http://localhost:%d" % PORT
 
+# First: it chooses the master's port.
+from soak_run import OUTCOMES, SoakRun, cpu_and_memory, run_to_end  # noqa: E402
 import rospy  # noqa: E402
 from actionlib_msgs.msg import GoalStatus  # noqa: E402
 from nav_msgs.msg import OccupancyGrid  # noqa: E402
 
 from move_clients import PlainClient, pose_at  # noqa: E402
 from ros_processes import Program, free_map, start_program, wait_until  # noqa: E402
-from split_mapf.msg import (PlanOutcome, PlanPathsActionGoal, PlanPathsActionResult,  # noqa: E402
+from split_mapf.msg import (PlanPathsActionGoal, PlanPathsActionResult,  # noqa: E402
                             PlanPathsGoal, RobotTask)
 
-OUTCOMES = {value: name for name, value in vars(PlanOutcome).items()
-            if name.isupper() and isinstance(value, int)}
 # A goal may wait behind those of all others, each with its limit.
 PATIENCE_SEC = 300
 LOOK_SEC = 5
@@ -48,11 +43,6 @@ WARM_UP_SEC = 300
 SOLVERS = ("", "auto", "conflict_optimizer", "ecbs", "lacam", "prioritized")
 SPLITS = ("", "none", "2t", "2s", "2x2s2t")
 SIGNS_OF_HARM = ("AddressSanitizer", "LeakSanitizer", "runtime error:", "terminate called")
-
-
-def memory_mib(pid):
-    with open("/proc/%d/statm" % pid, encoding="ascii") as file:
-        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 2 ** 20
 
 
 def fault_of(grid, starts, goals, plan):
@@ -175,34 +165,17 @@ class RandomGoals:
         return "bad: " + kind
 
 
-class PlanSoak:
+class PlanSoak(SoakRun):
     def __init__(self, options):
+        super().__init__("plan_soak")
         self.options = options
-        self.wrong = []
         self.sent = {}
         self.outcomes = []
         self.maps = {}
         self.draw = random.Random(options.seed)
-        self.programs = []
         self.stopping = threading.Event()
-        self.start(Program("roscore", "-p", str(PORT)))
-        wait_until(self.has_master)
-        rospy.init_node("plan_soak", disable_signals=True)
         self.map_topic = rospy.Publisher("map", OccupancyGrid, queue_size=1, latch=True)
         self.change_map()
-
-    @staticmethod
-    def has_master():
-        with socket.socket() as master:
-            return master.connect_ex(("localhost", PORT)) == 0
-
-    def start(self, program):
-        self.programs.append(program)
-        return program
-
-    def require(self, is_well, what):
-        if not is_well:
-            self.wrong.append(what)
 
     def change_map(self):
         """To one of another size than the last ones, so that a plan tells by its map which it is for."""
@@ -279,14 +252,17 @@ class PlanSoak:
         begun = time.monotonic()
         length = 60 * self.options.minutes
         warm = min(WARM_UP_SEC, length / 3)
-        self.memory = {False: [memory_mib(self.node.process.pid)], True: []}
+        self.memory = {False: [self.memory_mib()], True: []}
         while time.monotonic() - begun < length and not self.wrong:
             time.sleep(LOOK_SEC)
             if self.node.process.poll() is not None:
                 self.require(False, "the node ended: " + self.node.output()[-2000:])
                 return
-            self.memory[time.monotonic() - begun > warm].append(memory_mib(self.node.process.pid))
+            self.memory[time.monotonic() - begun > warm].append(self.memory_mib())
             self.change_map()
+
+    def memory_mib(self):
+        return cpu_and_memory(self.node.process.pid)[1]
 
     def judge_ended(self, client):
         """Looks at the ends that came, and keeps no plan."""
@@ -342,8 +318,7 @@ class PlanSoak:
 
     def end(self):
         self.stopping.set()
-        for program in reversed(self.programs):
-            program.end()
+        super().end()
 
 
 def main():
@@ -358,13 +333,7 @@ def main():
                         help="beyond what the node had at first [MiB] (20)")
     parser.add_argument("--seed", type=int, default=1)
     soak = PlanSoak(parser.parse_args())
-    try:
-        soak.run()
-    finally:
-        soak.end()
-    for what in soak.wrong[:10]:
-        print("wrong: " + what)
-    return 1 if soak.wrong else 0
+    return run_to_end(soak, soak.run)
 
 
 if __name__ == "__main__":
