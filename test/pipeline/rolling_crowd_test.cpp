@@ -91,12 +91,7 @@ TEST(Rolling, MapsThatAreHalfFullDoNotJam) {
   // What comes of a crowd hangs by a hair, so one of the three may jam.
   int flowing = 0;
   for (const std::uint64_t seed : {6, 7, 8}) {
-    GeneratorOptions map;
-    map.width = map.height = 20;
-    map.density = 0.2;
-    map.seed = seed;
-    map.robots = 1;
-    const GridPtr grid = generateProblem(map).grid;
+    const GridPtr grid = generatedMap(20, 20, 0.2, seed);
     RollOptions options;
     options.steps = 400;
     options.warmup = 250;

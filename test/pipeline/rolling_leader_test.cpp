@@ -85,14 +85,8 @@ std::optional<std::vector<rolling::LeaderMove>> search(const Crowd& crowd) {
 
 Crowd drawCrowd(std::uint64_t seed) {
   RandomEngine engine(seed);
-  GeneratorOptions map;
-  map.width = 5;
-  map.height = 3;
-  map.density = 0.1 + 0.1 * static_cast<double>(drawBelow(engine, 4));
-  map.seed = seed;
-  map.robots = 1;
   Crowd crowd;
-  crowd.grid = generateProblem(map).grid;
+  crowd.grid = generatedMap(5, 3, 0.1 + 0.1 * static_cast<double>(drawBelow(engine, 4)), seed);
   const auto cells = static_cast<std::uint32_t>(crowd.grid->size());
   crowd.occupied.assign(cells, false);
   const std::uint64_t robots = 1 + drawBelow(engine, cells - 1);
@@ -180,12 +174,7 @@ TEST(Rolling, RobotsThatCanNeverArriveDoNotMakeTheOthersRest) {
 }
 
 TEST(Rolling, AJamInACrowdIsUndoneLikewiseAtAnyNumberOfThreads) {
-  GeneratorOptions map;
-  map.width = map.height = 14;
-  map.density = 0.2;
-  map.robots = 1;
-  map.seed = 8;
-  const GridPtr grid = generateProblem(map).grid;
+  const GridPtr grid = generatedMap(14, 14, 0.2, 8);
   RollOptions options;
   options.steps = 1000;
   options.warmup = 400;

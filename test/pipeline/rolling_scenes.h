@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -38,11 +39,21 @@ inline RollingOptions windowOf(std::uint32_t steps) {
   return options;
 }
 
-inline GridPtr generatedHall(std::uint32_t side) {
+/// @param density  of blocked cells; nothing: what the generator takes.
+inline GridPtr generatedMap(std::uint32_t width, std::uint32_t height,
+                            std::optional<double> density, std::uint64_t seed) {
   GeneratorOptions map;
-  map.width = map.height = side;
+  map.width = width;
+  map.height = height;
+  map.density = density;
+  map.seed = seed;
   map.robots = 1;
   return generateProblem(map).grid;
+}
+
+inline GridPtr generatedHall(std::uint32_t side) {
+  const GeneratorOptions usual;
+  return generatedMap(side, side, usual.density, usual.seed);
 }
 
 /// Robots anywhere, whose next goals are drawn.

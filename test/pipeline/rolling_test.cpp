@@ -16,7 +16,6 @@
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/fleet_check.h"
 #include "split_mapf/core/random.h"
-#include "split_mapf/generate/generator.h"
 #include "split_mapf/pipeline/roll.h"
 #include "support/ascii_grid.h"
 
@@ -150,13 +149,8 @@ class RandomFleet {
 };
 
 TEST(Rolling, KeepsPrefixesAndRulesInRandomScenes) {
-  GeneratorOptions map;
-  map.width = map.height = 14;
-  map.density = 0.15;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    map.seed = seed;
-    map.robots = 1;
-    const GridPtr grid = generateProblem(map).grid;
+    const GridPtr grid = generatedMap(14, 14, 0.15, seed);
     RandomFleet fleet(grid, 20 + 20 * static_cast<std::uint32_t>(seed), seed);
     Rolling rolling(grid, windowOf(10));
     for (int step = 0; step < 40; ++step) {
