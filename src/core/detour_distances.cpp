@@ -13,11 +13,6 @@ constexpr std::uint32_t kMostSides = 60000;
 constexpr std::size_t kDirections = 4;
 // Vertices around the goal that are searched from there.
 constexpr std::size_t kAroundGoal = 200;
-// Vertices that the first distance may cost, a step that it has at least, and besides: more are
-// needed in caves, and where start and goal lie in a strip so narrow that no way leads straight
-// through it. Later ones are not bound by it: a search from the goal would cost more by then.
-constexpr std::size_t kExpandedAStep = 8;
-constexpr std::size_t kExpandedBesides = 1000;
 
 struct Choice {
   Cell cell;
@@ -93,7 +88,7 @@ std::uint32_t DistanceTable::searchDetours(Vertex v) const {
   // Only the first one tells what the map is like.
   const std::size_t most = search.expanded > 0
                                ? worth_completing
-                               : kExpandedAStep * search.rowsAndColumns(cell) + kExpandedBesides;
+                               : kMostOfFirstDetours * search.rowsAndColumns(cell) + kMostBesidesDetours;
   while (!isKnown(v)) {
     if (search.expanded > worth_completing) {
       complete();

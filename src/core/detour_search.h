@@ -12,6 +12,12 @@
 
 namespace split_mapf {
 
+// Vertices that the first distance may cost, a step that it has at least, and besides: more are
+// needed in caves, and where start and goal lie in a strip so narrow that no way leads straight
+// through it. Later ones are not bound by it: a search from the goal would cost more by then.
+constexpr std::size_t kMostOfFirstDetours = 8;
+constexpr std::size_t kMostBesidesDetours = 1000;
+
 /// Distances on a grid, from wherever somebody asks towards the goal: a way of as many steps as
 /// rows and columns if there is one, else one with one step away from the goal, with two, and so
 /// on. With k of them, its detour, a way has 2k steps more. What is met on such a way is known from

@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "core/demand_sample.h"
 #include "core/table_pool.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
@@ -12,9 +13,10 @@
 namespace split_mapf {
 namespace {
 
-// Tables that take less in all are computed once and kept: nothing is gained by a look at parts of
-// them only.
-constexpr std::size_t kFewBytes = std::size_t{256} << 20U;
+// Tables of all that take less together are there before a look at the map would have paid.
+constexpr std::size_t kFewBytes = std::size_t{8} << 20U;
+// Those that take more together than this are found on demand on whatever map.
+constexpr std::size_t kManyBytes = std::size_t{256} << 20U;
 
 /// Turns cells into vertices; reports cells outside the grid or blocked.
 std::vector<Vertex> locate(const Grid& grid, const std::vector<Cell>& cells, const char* role,
@@ -144,7 +146,9 @@ Instance Instance::stretchOf(const Instance& whole, const std::vector<Vertex>& s
 }
 
 Instance Instance::boundedTo(std::size_t bytes) const {
-  if (!tables_->areAll() || tables_->bytesOfAll() <= std::min(bytes, kFewBytes)) return *this;
+  const std::size_t all = tables_->bytesOfAll();
+  const bool fits = all <= std::min(bytes, kManyBytes);
+  if (!tables_->areAll() || (fits && (all <= kFewBytes || !paysOnDemand(problem_)))) return *this;
   return Instance(problem_, std::make_shared<const DistanceTables>(
                                 grid(), starts(), goals(), std::make_shared<TablePool>(bytes)));
 }

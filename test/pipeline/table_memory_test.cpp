@@ -88,5 +88,18 @@ TEST(TableMemory, BoundsNoInstanceWhoseTablesAreFew) {
   EXPECT_EQ(bounded.shortestLength(7), instance.shortestLength(7));
 }
 
+TEST(TableMemory, IsOnDemandWhereTheMapMakesThatCheap) {
+  constexpr std::size_t kPlenty = std::size_t{1} << 30U;
+  const Instance open = test::generatedInstance(240, 0.1, 100, 6);
+  EXPECT_TRUE(open.boundedTo(kPlenty).isBounded());
+  GeneratorOptions rooms;
+  rooms.kind = MapKind::kRooms;
+  rooms.width = rooms.height = 240;
+  rooms.robots = 100;
+  EXPECT_FALSE(test::generatedInstance(rooms).boundedTo(kPlenty).isBounded());
+  // Few robots are not worth the look.
+  EXPECT_FALSE(test::generatedInstance(460, 0.1, 20, 7).boundedTo(kPlenty).isBounded());
+}
+
 }  // namespace
 }  // namespace split_mapf

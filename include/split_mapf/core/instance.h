@@ -41,10 +41,10 @@ class Instance {
                             const std::vector<Vertex>& goals);
 
   /// The same, with distance tables that take about `bytes` at most: those that were read longest
-  /// ago are given up and made again when they are needed. Where few bytes are needed for all, or
-  /// where the distances are found on demand, it is this instance. Tables that are being read, a
-  /// few a thread (in solvers that look at all robots at once one a robot), count only when they
-  /// are not read any more.
+  /// ago are given up and made again when they are needed. Where few bytes are needed for all, the
+  /// map makes ways on demand dear, or distances are on demand already, it is this instance. Tables
+  /// that are being read, a few a thread (one a robot in solvers that look at all at once), count
+  /// only when they are not read any more.
   Instance boundedTo(std::size_t bytes) const;
   /// A part of a bounded instance: other starts, goals or robots, or a part of the grid. Its tables
   /// share the room. @pre whole.isBounded().
