@@ -3,6 +3,7 @@
 
 #include "io/file_bytes.h"
 #include "io/json_text.h"
+#include "io/streamed_json.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
 #include "split_mapf/io/plan_json.h"
@@ -106,7 +107,7 @@ class LayoutReader {
 }  // namespace
 
 std::optional<Layout> readPlanLayout(const std::string& path, const Grid& grid) {
-  const Json document = Json::parse(readFile(path), nullptr, false);
+  const Json document = StreamedObject({}, {"layout"}).parse(readFile(path), false);
   if (!document.is_object() || !document.contains("layout")) {
     throw InputError(path + ": read no 'layout', expected one or null");
   }

@@ -2,9 +2,11 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "io/file_bytes.h"
 #include "io/json_text.h"
+#include "io/streamed_json.h"
 #include "split_mapf/core/error.h"
 #include "split_mapf/core/wording.h"
 #include "split_mapf/io/plan_json.h"
@@ -26,28 +28,6 @@ std::string reasonOf(const Json::parse_error& error) {
   const std::string text = error.what();
   const std::size_t colon = text.find(": ");
   return colon == std::string::npos ? text : text.substr(colon + 2);
-}
-
-Json parse(const std::string& path, const std::string& bytes) {
-  int lists_of_paths = 0;
-  const auto count = [&](int depth, Json::parse_event_t event, Json& parsed) {
-    if (event == Json::parse_event_t::key && depth == 1 && parsed == "paths") ++lists_of_paths;
-    return true;
-  };
-  Json document;
-  try {
-    document = Json::parse(bytes, count);
-  } catch (const Json::parse_error& error) {
-    const std::size_t end = std::min(bytes.size(), error.byte > 0 ? error.byte - 1 : 0);
-    const auto line =
-        std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(end), '\n');
-    failAtLine(path, static_cast<std::size_t>(line) + 1,
-               "read malformed JSON, expected a plan: " + reasonOf(error));
-  }
-  if (!document.is_object()) fail(path, "read " + shown(document) + ", expected a JSON object");
-  if (lists_of_paths == 0) fail(path, "read no 'paths', expected a list of paths, one a robot");
-  if (lists_of_paths > 1) fail(path, "read 'paths' a second time, expected it once");
-  return document;
 }
 
 // One plan file being read: its name, and the place that a message names.
@@ -210,36 +190,92 @@ std::vector<Cell> compactCellsOf(const std::string& text, const std::string& pat
   }
 }
 
-CellPaths pathsOf(const std::string& path, const Json& document) {
-  const Json& lists = document.at("paths");
-  if (!lists.is_array()) fail(path, "paths: read " + shown(lists) + ", expected a list of paths");
-  CellPaths paths;
-  paths.reserve(lists.size());
-  std::uint64_t room = kCellsOfAnyFile;
-  for (const Json& list : lists) {
-    const std::size_t robot = paths.size();
+/// Takes the paths one by one, as they are read.
+class PathTaker {
+ public:
+  explicit PathTaker(const std::string& path) : path_(path) {}
+
+  void take(const Json& list) {
+    const std::size_t robot = paths_.size();
     if (list.is_string()) {
       const auto& text = list.get_ref<const std::string&>();
-      room += kCellsAByte * text.size();
-      paths.push_back(compactCellsOf(text, path, robot, room));
-      room -= paths.back().size();
-      continue;
+      room_ += kCellsAByte * text.size();
+      paths_.push_back(compactCellsOf(text, path_, robot, room_));
+      room_ -= paths_.back().size();
+      return;
     }
     if (!list.is_array()) {
-      fail(path, "paths, robot " + std::to_string(robot) + ": read " + shown(list) +
-                     ", expected a list of cells");
+      fail(path_, "paths, robot " + std::to_string(robot) + ": read " + shown(list) +
+                      ", expected a list of cells");
     }
-    std::vector<Cell>& cells = paths.emplace_back();
+    std::vector<Cell>& cells = paths_.emplace_back();
     cells.reserve(list.size());
-    for (const Json& cell : list) cells.push_back(cellOf(cell, {path, robot, cells.size()}));
+    for (const Json& cell : list) cells.push_back(cellOf(cell, {path_, robot, cells.size()}));
   }
-  return paths;
+  CellPaths& paths() { return paths_; }
+
+ private:
+  const std::string& path_;
+  CellPaths paths_;
+  std::uint64_t room_ = kCellsOfAnyFile;
+};
+
+/// Takes the poses likewise.
+class PoseTaker {
+ public:
+  explicit PoseTaker(const std::string& path) : path_(path) {}
+
+  void take(const Json& list) {
+    const std::size_t robot = poses_.size();
+    if (!list.is_array()) {
+      fail(path_, "poses, robot " + std::to_string(robot) + ": read " + shown(list) +
+                      ", expected a list of points");
+    }
+    std::vector<MapPoint>& poses = poses_.emplace_back();
+    poses.reserve(list.size());
+    for (const Json& point : list) poses.push_back(pointOf(point, path_, robot, poses.size()));
+  }
+  std::vector<std::vector<MapPoint>>& poses() { return poses_; }
+
+ private:
+  const std::string& path_;
+  std::vector<std::vector<MapPoint>> poses_;
+};
+
+/// @param paths  the list of them.
+Json parse(const std::string& path, StreamedObject parser, const StreamedList& paths) {
+  const std::string bytes = readFile(path);
+  Json document;
+  try {
+    document = parser.parse(bytes);
+  } catch (const Json::parse_error& error) {
+    const std::size_t end = std::min(bytes.size(), error.byte > 0 ? error.byte - 1 : 0);
+    const auto line =
+        std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+    failAtLine(path, static_cast<std::size_t>(line) + 1,
+               "read malformed JSON, expected a plan: " + reasonOf(error));
+  }
+  if (!document.is_object()) fail(path, "read " + shown(document) + ", expected a JSON object");
+  if (paths.times == 0) fail(path, "read no 'paths', expected a list of paths, one a robot");
+  if (paths.times > 1) fail(path, "read 'paths' a second time, expected it once");
+  return document;
+}
+
+void requireListOfPaths(const std::string& path, const Json& document) {
+  const Json& value = document.at("paths");
+  if (!value.is_array()) fail(path, "paths: read " + shown(value) + ", expected a list of paths");
 }
 
 }  // namespace
 
 DiscClaims readDiscPlanJson(const std::string& path) {
-  const Json document = parse(path, readFile(path));
+  PathTaker paths(path);
+  PoseTaker poses(path);
+  StreamedList path_list{"paths", [&](const Json& list) { paths.take(list); }};
+  StreamedList pose_list{"poses", [&](const Json& list) { poses.take(list); }};
+  const Json document =
+      parse(path, StreamedObject({&path_list, &pose_list}, {"robot_radius", "clearance", "radii"}),
+            path_list);
   DiscClaims claims;
   claims.robot_radius_m = lengthAt(path, document, "robot_radius");
   claims.clearance_m = lengthAt(path, document, "clearance");
@@ -247,29 +283,30 @@ DiscClaims readDiscPlanJson(const std::string& path) {
   if (lists == document.end() || !lists->is_array()) {
     fail(path, "read no list 'poses', expected the plan of robots that have size");
   }
-  for (const Json& list : *lists) {
-    const std::size_t robot = claims.poses.size();
-    if (!list.is_array()) {
-      fail(path, "poses, robot " + std::to_string(robot) + ": read " + shown(list) +
-                     ", expected a list of points");
-    }
-    std::vector<MapPoint>& poses = claims.poses.emplace_back();
-    for (const Json& point : list) poses.push_back(pointOf(point, path, robot, poses.size()));
-  }
+  if (pose_list.times > 1) fail(path, "read 'poses' a second time, expected it once");
+  pose_list.requireSound();
+  claims.poses = std::move(poses.poses());
   claims.radius_m = radiiOf(path, document, claims.poses.size());
-  claims.paths = pathsOf(path, document);
+  requireListOfPaths(path, document);
+  path_list.requireSound();
+  claims.paths = std::move(paths.paths());
   return claims;
 }
 
 CellPaths readPlanJson(const std::string& path) {
-  const Json document = parse(path, readFile(path));
+  PathTaker paths(path);
+  StreamedList path_list{"paths", [&](const Json& list) { paths.take(list); }};
+  StreamedList pose_list{"poses", [](const Json&) {}};
+  const Json document = parse(path, StreamedObject({&path_list, &pose_list}, {}), path_list);
   const auto poses = document.find("poses");
-  if (poses != document.end() && !poses->empty()) {
+  if (pose_list.entries > 0 || (poses != document.end() && !poses->empty())) {
     fail(path,
          "read a plan of robots that have size, expected one of cells (validate, render and "
          "simulate take both: with --robot-radius, --cell-size or a scenario of poses)");
   }
-  return pathsOf(path, document);
+  requireListOfPaths(path, document);
+  path_list.requireSound();
+  return std::move(paths.paths());
 }
 
 }  // namespace split_mapf

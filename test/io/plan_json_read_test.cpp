@@ -101,6 +101,45 @@ TEST_F(PlanJsonReadTest, NamesRobotAndStep) {
             "a.json: paths, robot 0, step 0: read y = 'true', expected a 32-bit integer");
 }
 
+TEST_F(PlanJsonReadTest, TellsFirstWhatIsWrongWithTheWhole) {
+  EXPECT_EQ(errorOfJson("{\"paths\": [7],\n \"x\": }").substr(0, 30),
+            "a.json:2: read malformed JSON,");
+  EXPECT_EQ(errorOfJson(R"({"paths": [7], "paths": []})"),
+            "a.json: read 'paths' a second time, expected it once");
+  EXPECT_EQ(errorOfJson(R"({"paths": {"a": [1]}})"),
+            "a.json: paths: read '{\"a\":[1]}', expected a list of paths");
+  EXPECT_EQ(errorOfJson(R"({"paths": [7, "x"]})"),
+            "a.json: paths, robot 0: read '7', expected a list of cells");
+  const std::string sized = "a.json: read a plan of robots that have size";
+  EXPECT_EQ(errorOfJson(R"({"paths": [7], "poses": [[[1, 2]]]})").substr(0, sized.size()), sized);
+  EXPECT_EQ(errorOfJson(R"({"poses": 3, "paths": []})").substr(0, sized.size()), sized);
+  EXPECT_EQ(pathsOf(R"({"paths": [[[1,2]]], "poses": []})"), (CellPaths{{{1, 2}}}));
+}
+
+TEST_F(PlanJsonReadTest, ReadsPosesBesidePaths) {
+  const auto read = [&](const std::string& json) { return readDiscPlanJson(file("d.json", json)); };
+  const DiscClaims claims = read(
+      R"({"paths": [[[1,2]], "3,4"], "robot_radius": 0.5, "x": {"poses": 1}, "radii": [0.5, 0.25],
+          "poses": [[[1, 2.5], [2, 3]], []]})");
+  EXPECT_EQ(claims.robot_radius_m, 0.5);
+  EXPECT_EQ(claims.radius_m, (std::vector<double>{0.5, 0.25}));
+  EXPECT_EQ(claims.paths, (CellPaths{{{1, 2}}, {{3, 4}}}));
+  ASSERT_EQ(claims.poses.size(), 2U);
+  ASSERT_EQ(claims.poses[0].size(), 2U);
+  EXPECT_EQ(claims.poses[0][1].y, 3);
+  const auto error = [&](const std::string& json) { return errorOf([&] { read(json); }); };
+  EXPECT_EQ(error(R"({"paths": [7], "poses": [[[1, 2]], [[1, 2], [true, 2]]]})"),
+            "d.json: poses, robot 1, step 1: read '[true,2]', expected [x, y]");
+  EXPECT_EQ(error(R"({"paths": [7], "poses": [[[1, 2]], 4]})"),
+            "d.json: poses, robot 1: read '4', expected a list of points");
+  EXPECT_EQ(error(R"({"paths": [7], "poses": [[[1, 2]]]})"),
+            "d.json: paths, robot 0: read '7', expected a list of cells");
+  EXPECT_EQ(error(R"({"paths": [], "poses": [], "poses": []})"),
+            "d.json: read 'poses' a second time, expected it once");
+  EXPECT_EQ(error(R"({"paths": []})"),
+            "d.json: read no list 'poses', expected the plan of robots that have size");
+}
+
 TEST_F(PlanJsonReadTest, NamesAFileThatCannotBeRead) {
   EXPECT_EQ(errorOf([&] { readPlanJson(pathOf("none.json")); }),
             "cannot open none.json: No such file or directory");
