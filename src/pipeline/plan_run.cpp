@@ -63,7 +63,8 @@ PlanReport PlanRun::run() {
     }
   }
   if (!report_.plan) {
-    report_.message += whatIsKnown(report_, request_, hasRoomForAllTables() ? last_resort_ : "");
+    report_.message +=
+        whatIsKnown(report_, request_, all_distances_.areTooLarge() ? "" : last_resort_);
   }
   if (!report_.optimal) report_.certified_by.clear();
   log_.leaveStage();
@@ -74,11 +75,11 @@ PlanReport PlanRun::run() {
 
 void PlanRun::runStages() {
   log_.enterStage("check");
-  if (reportUnsolvable()) return;
+  if (reportUnsolvable() || refuseAtSight()) return;
   log_.enterStage("distances");
   if (!computeDistances()) return interrupt();
   setLowerBounds();
-  if (acceptShortestPath()) return;
+  if (acceptShortestPath() || refuseEverybody()) return;
   choose();
   if (refuseStepTables()) return;
   std::optional<Plan> plan = planInPieces();
@@ -116,6 +117,7 @@ void PlanRun::setLowerBounds() {
   report_.sum_of_costs_lower_bound = sumOfCostsLowerBound(instance_);
   report_.proved_lower_bound = static_cast<double>(lowerBound(instance_, report_.objective));
   step_table_ = StepTable(instance_, report_.makespan_lower_bound);
+  all_distances_ = AllDistances(instance_, report_.sum_of_costs_lower_bound);
   log_.setLowerBound(report_.proved_lower_bound);
 }
 

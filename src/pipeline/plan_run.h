@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "core/all_distances.h"
 #include "pipeline/checked_request.h"
 #include "pipeline/piece_solver.h"
 #include "pipeline/repair_loop.h"
@@ -69,13 +70,16 @@ class PlanRun {
   void takeTurnsOut();
   /// True, with the reason in the report, when the solver would keep one that no memory holds.
   bool refuseStepTables();
+  /// Likewise, when `auto` can choose nobody, as there is memory neither for a table of steps nor
+  /// for the distances of all robots.
+  bool refuseEverybody();
+  /// The same by what is known before any robot's way is: on wide maps these take minutes.
+  bool refuseAtSight();
   /// Takes note of what somebody has proved for the objective [steps]. @pre there is a plan.
   void raiseBound(std::uint64_t bound, const std::string& by);
   void interrupt();
   /// Values of what `auto` calls: lean ones where memory is short or the plan is to be seen soon.
   std::map<std::string, std::string> valuesOf(const std::string& solver) const;
-  /// Whether the distances of all robots at once fit into memory.
-  bool hasRoomForAllTables() const;
   /// What `auto` chose gets all the time but what the last resort is likely to need.
   void keepTimeForLastResort(double expected_sec);
 
@@ -91,6 +95,7 @@ class PlanRun {
   const SolverRegistry& solvers_;
   const SolverTable traits_;
   StepTable step_table_;           ///< from the lower bounds on
+  AllDistances all_distances_;     ///< likewise
   const std::string last_resort_;  ///< a solver; empty: there is none
   PieceSolver piece_solver_;
   std::vector<Path> shortest_paths_;                ///< of the robots, until `auto` has chosen

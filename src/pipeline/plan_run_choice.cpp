@@ -18,11 +18,6 @@ constexpr double kLargestReserve = 0.3;
 constexpr double kLeastReserveSec = 0.5;
 // Of a solver that is called for a plan which is only looked at: half a second or so.
 constexpr std::uint64_t kTurnOfOthers = 2000000;
-// Whoever looks at all robots at once keeps a table of distances for each, which takes so much for
-// a step of its shortest way where it is found on demand. Nobody is called whose tables would take
-// more than the most: the system would end the process.
-constexpr std::uint64_t kTableBytesAStep = 250;
-constexpr std::uint64_t kMostBytesOfTables = std::uint64_t{8} << 30U;
 
 }  // namespace
 
@@ -59,42 +54,13 @@ void PlanRun::choose() {
   question.solvers = traits_;
   question.splits = splits();
   question.refines = request_.asked.refine_sec > 0;
-  question.one_by_one = !splits() && !hasRoomForAllTables();
+  question.one_by_one = !splits() && all_distances_.areTooLarge();
   const AutoChoice choice = chooseMethod(question, CostModel::shipped());
   request_.solver = choice.solver;
   request_.solver_options.values = valuesOf(choice.solver);
   request_.solver_options.expansion_limit = choice.turn;
-  if (hasRoomForAllTables()) keepTimeForLastResort(choice.last_resort_sec);
+  if (!all_distances_.areTooLarge()) keepTimeForLastResort(choice.last_resort_sec);
   choice_ = " (chosen: " + choice.reason + ")";
-}
-
-bool PlanRun::refuseStepTables() {
-  const bool is_cut = splits() && request_.split.spec.time_ratios.size() != 1;
-  if (is_cut || request_.split.spec.space || !step_table_.isImpossible()) return false;
-  if (!keepsStepTable(traits_, request_.solver)) {
-    bool is_lean = true;
-    for (const auto& [name, value] : solvers_.info(request_.solver).lean_values) {
-      // What the user asks for is done or refused.
-      const auto [given, is_new] = request_.solver_options.values.emplace(name, value);
-      is_lean = is_lean && (is_new || given->second == value);
-    }
-    if (is_lean) return false;
-  }
-  report_.termination = Termination::kMemoryLimit;
-  report_.message = step_table_.describe(" of " + request_.solver) + ", at most " +
-                    StepTable::mostPossible() + " are possible";
-  if (!last_resort_.empty()) {
-    report_.message += "; solver " + last_resort_ + " keeps none";
-    if (request_.solver == last_resort_) report_.message += " without options of its own";
-  }
-  return true;
-}
-
-bool PlanRun::hasRoomForAllTables() const {
-  const std::uint64_t met = kTableBytesAStep * report_.sum_of_costs_lower_bound;
-  // Where memory ran out before it was known the graph may not be there.
-  if (!instance_.isBounded() || met <= kMostBytesOfTables) return true;
-  return std::uint64_t{2} * instance_.robots() * instance_.graph().size() <= kMostBytesOfTables;
 }
 
 void PlanRun::keepTimeForLastResort(double expected_sec) {
@@ -128,7 +94,7 @@ bool PlanRun::callAnother(const RepairLoop::Outcome& outcome) {
     Others others{piece_solver_.otherSolvers(), last_resort_};
     others.is_late = late;
     others.without_tables = step_table_.isTooLarge();
-    others.one_by_one = !hasRoomForAllTables();
+    others.one_by_one = all_distances_.areTooLarge();
     others_ = lastCalledFirst(traits_, std::move(others));
     solve_deadline_ = deadline_;
   }

@@ -29,6 +29,8 @@ std::string StepTable::describe(const std::string& whose) const {
   return "a table of steps" + whose + " would take " + std::to_string(mebibytes_) + " MiB";
 }
 
+std::string StepTable::mostOfAuto() const { return std::to_string(most_mebibytes_) + " MiB"; }
+
 std::string StepTable::mostPossible() { return std::to_string(kMostAskedForMebibytes) + " MiB"; }
 
 }  // namespace split_mapf

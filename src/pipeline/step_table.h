@@ -23,6 +23,8 @@ class StepTable {
   bool isImpossible() const;
   /// "a table of steps WHOSE would take 300 MiB". @param whose  begins with a blank; or is empty.
   std::string describe(const std::string& whose = "") const;
+  /// What isTooLarge() allows, for people: "192 MiB".
+  std::string mostOfAuto() const;
   /// What isImpossible() allows, for people: "2048 MiB".
   static std::string mostPossible();
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "core/all_distances.h"
 #include "search/crowd.h"
 #include "search/replan_singly.h"
 #include "solver/lacam/lacam_search.h"
@@ -44,20 +45,29 @@ SolveResult interrupted(const Deadline& deadline) {
   return result;
 }
 
-/// What is known before any search: a proof that there is no plan, or that there is no time.
+SolveResult refused(Termination how, const std::string& message) {
+  SolveResult result;
+  result.termination = how;
+  result.message = message;
+  return result;
+}
+
+/// What is known before any search: a proof that there is no plan, or that there is no time or no
+/// memory.
 std::optional<SolveResult> refuse(const Instance& instance, const LacamSettings& settings,
                                   const Deadline& deadline) {
+  const AllDistances at_least = AllDistances::atLeast(instance);
+  if (at_least.areTooLarge()) return refused(Termination::kMemoryLimit, at_least.describe(kName));
   for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {
     if (deadline.expired()) return interrupted(deadline);
     if (instance.shortestLength(robot) == DistanceTable::kUnreachable) return cutOffResult(robot);
   }
+  const AllDistances distances(instance, sumOfCostsLowerBound(instance));
+  if (distances.areTooLarge()) return refused(Termination::kMemoryLimit, distances.describe(kName));
   if (!settings.check) return std::nullopt;
   const SolvabilityVerdict verdict = checkSolvable(instance, deadline);
   if (verdict.answer != Solvability::kUnsolvable) return std::nullopt;
-  SolveResult result;
-  result.termination = Termination::kUnsolvable;
-  result.message = explain(verdict, instance.grid());
-  return result;
+  return refused(Termination::kUnsolvable, explain(verdict, instance.grid()));
 }
 
 /// Gives robots earlier paths until passes, expansions or time run out. The plan stays valid.

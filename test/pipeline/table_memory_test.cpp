@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -99,6 +101,49 @@ TEST(TableMemory, IsOnDemandWhereTheMapMakesThatCheap) {
   EXPECT_FALSE(test::generatedInstance(rooms).boundedTo(kPlenty).isBounded());
   // Few robots are not worth the look.
   EXPECT_FALSE(test::generatedInstance(460, 0.1, 20, 7).boundedTo(kPlenty).isBounded());
+}
+
+/// A team from the upper left of an open map to the lower right, in the same order.
+Instance wideTeam(std::uint32_t side, std::uint32_t robots) {
+  std::vector<Cell> starts;
+  std::vector<Cell> goals;
+  const auto last = static_cast<std::int32_t>(side) - 1;
+  const auto row = static_cast<std::int32_t>(side / 4);
+  for (std::uint32_t i = 0; i < robots; ++i) {
+    const auto number = static_cast<std::int32_t>(i);
+    starts.push_back({number % row, number / row});
+    goals.push_back({last - row + 1 + number % row, last - number / row});
+  }
+  const std::vector<bool> free(std::size_t{side} * side, true);
+  return Instance(std::make_shared<const Grid>(side, side, free), starts, goals);
+}
+
+TEST(TableMemory, ATeamForWhichNobodyHasMemoryIsRefusedAtOnce) {
+  const Instance instance = wideTeam(1440, 20000);
+  PlanRequest request;
+  const PlanReport report = planWithin(0, 1, request, instance);
+  EXPECT_EQ(report.termination, Termination::kMemoryLimit);
+  const std::string begin = "a table of steps would take ";
+  EXPECT_EQ(report.message.substr(0, begin.size()), begin) << report.message;
+  for (const char* part : {", at most 512 MiB are taken by choice; the distances of all robots, "
+                           "which solver lacam keeps, would take ",
+                           " MiB, at most 8192 MiB are possible"}) {
+    EXPECT_NE(report.message.find(part), std::string::npos) << report.message;
+  }
+  const auto stage = [&](const char* name) {
+    return std::any_of(report.stages.begin(), report.stages.end(),
+                       [&](const auto& one) { return one.first == name; });
+  };
+  EXPECT_TRUE(stage("check"));
+  EXPECT_FALSE(stage("distances")) << "before ways are measured";
+}
+
+TEST(TableMemory, ASolverForWhoseTablesThereIsNoMemoryRefuses) {
+  const Instance instance = wideTeam(1440, 20000).boundedTo(1);
+  const SolveResult result = builtinSolvers().create("lacam", {})->solve(instance, Deadline(60));
+  EXPECT_EQ(result.termination, Termination::kMemoryLimit);
+  const std::string begin = "the distances of all robots, which lacam keeps, would take ";
+  EXPECT_EQ(result.message.substr(0, begin.size()), begin) << result.message;
 }
 
 }  // namespace
