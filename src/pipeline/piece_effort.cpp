@@ -8,9 +8,10 @@ namespace {
 
 // Of a solver that places robot after robot.
 constexpr double kSecAStep = 3e-6;
-// Solvers that prove bounds resolve conflicts one by one; these grow with steps times robots. ECBS
-// takes half of it at 100 robots, `ilp` ten times as much.
-constexpr double kSecAStepAndRobot = 1e-5;
+// Solvers that prove bounds resolve conflicts one by one. What a piece takes grows with steps times
+// robots only roughly: most take a tenth of this and a few many times it. With half of this value
+// long pieces of `ilp` are kept, with twice it twice as many short ones are asked for.
+constexpr double kSecAStepAndRobot = 5e-6;
 
 }  // namespace
 
