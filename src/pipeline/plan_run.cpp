@@ -89,7 +89,10 @@ void PlanRun::runStages() {
   searchOptimum();
   if (request_.first_plan_only) return;
   takeFromOther();
-  if (request_.asked.refine_sec > 0) refineWithin(request_.asked.refine_sec);
+  if (request_.asked.refine_sec <= 0) return;
+  const Deadline end = deadline_.within(request_.asked.refine_sec);
+  guideCrowdAgain(end);
+  refineUntil(end);
 }
 std::optional<std::uint64_t> PlanRun::seedOfWays() const {
   const SplitterInfo* const splitter = request_.splitter;

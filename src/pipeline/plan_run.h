@@ -66,7 +66,9 @@ class PlanRun {
   void searchOptimum();
   /// What `auto` finds for the other objective, where it serves this one better.
   void takeFromOther();
-  void refineWithin(double seconds);
+  /// A crowd whose plan came soon and is dear gets another, by a search that takes longer.
+  void guideCrowdAgain(const Deadline& end);
+  void refineUntil(const Deadline& end);
   void takeTurnsOut();
   /// True, with the reason in the report, when the solver would keep one that no memory holds.
   bool refuseStepTables();

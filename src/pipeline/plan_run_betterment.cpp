@@ -10,10 +10,19 @@
 #include "pipeline/plan_run.h"
 #include "pipeline/refine_request.h"
 #include "portfolio/solver_choice.h"
+#include "search/crowd.h"
 #include "search/straighten.h"
 #include "split_mapf/improve/refine.h"
 
 namespace split_mapf {
+namespace {
+
+// An option of whoever can guide a crowd again on its way, and what it is told [steps].
+constexpr const char* kGuideAgain = "guide_again";
+constexpr const char* kGuideInterval = "30";
+
+}  // namespace
+
 void PlanRun::searchOptimum() {
   const bool wanted = report_.solver == "auto" && !report_.optimal && features_ &&
                       features_->largest_group <= kSmallKnot;
@@ -50,7 +59,32 @@ void PlanRun::takeFromOther() {
   accept(std::move(better));
 }
 
-void PlanRun::refineWithin(double seconds) {
+void PlanRun::guideCrowdAgain(const Deadline& end) {
+  const bool wanted = report_.solver == "auto" && !report_.optimal && !splits() &&
+                      instance_.robots() >= kCrowd && ruleOf(report_.objective).sums() &&
+                      traits_.at(request_.solver).loose_plans;
+  if (!wanted) return;
+  SolverOptions options;
+  options.objective = report_.objective;
+  options.seed = report_.seed;
+  const SolverInfo& info = solvers_.info(request_.solver);
+  const auto knows = [](const OptionInfo& option) { return option.name == kGuideAgain; };
+  if (std::none_of(info.options.begin(), info.options.end(), knows)) return;
+  options.values = info.lean_values;
+  options.values[kGuideAgain] = kGuideInterval;
+  log_.enterStage("guide again");
+  SolveRequest question(instance_, end);
+  question.threads = executor_.lend(report_.threads);
+  SolveResult result = solvers_.create(request_.solver, options)->solve(question);
+  if (!result.plan ||
+      costOf(*result.plan, report_.objective) >= costOf(*report_.plan, report_.objective)) {
+    return;
+  }
+  choice_ += "; the crowd was guided again on its way";
+  accept(std::move(*result.plan));
+}
+
+void PlanRun::refineUntil(const Deadline& end) {
   const std::string why_not = whyNotRefined(report_, step_table_);
   report_.message += why_not;
   if (!why_not.empty()) return;
@@ -68,7 +102,6 @@ void PlanRun::refineWithin(double seconds) {
   const bool in_turns = !report_.optimal && isOtherWorthAsking(request_, report_.robots,
                                                                report_.sum_of_costs_lower_bound);
   const auto improved = [this](const Plan& better) { accept(better); };
-  const Deadline end = deadline_.within(seconds);
   if (in_turns) {
     std::vector<Plan> plans = {*report_.plan};
     if (for_other_) plans.push_back(std::move(*for_other_));

@@ -9,6 +9,7 @@
 #include "core/all_distances.h"
 #include "search/crowd.h"
 #include "search/replan_singly.h"
+#include "solver/lacam/crowd_search.h"
 #include "solver/lacam/lacam_search.h"
 #include "solver/lacam/settings.h"
 #include "split_mapf/core/compaction.h"
@@ -70,6 +71,17 @@ std::optional<SolveResult> refuse(const Instance& instance, const LacamSettings&
   return refused(Termination::kUnsolvable, explain(verdict, instance.grid()));
 }
 
+/// The memory of the search, and the tables that it holds, are free before the plan is polished.
+CrowdSearchResult searchFromStart(const SolveRequest& request, const LacamSettings& settings) {
+  CrowdSearchResult result;
+  LacamSearch search(request.instance, settings, request.threads, request.deadline);
+  result.outcome = search.run();
+  result.configurations = search.configurations();
+  result.expansions = search.expansions();
+  if (result.outcome == LacamSearch::Outcome::kFound) result.plan = search.plan();
+  return result;
+}
+
 /// Gives robots earlier paths until passes, expansions or time run out. The plan stays valid.
 void polish(const SolveRequest& request, const LacamSettings& settings, SolveResult& result) {
   const Instance& instance = request.instance;
@@ -126,6 +138,7 @@ LacamSolver::LacamSolver(const SolverOptions& options)
   settings.check = values.flag("check", settings.check);
   if (options.values.count("guidance") > 0) settings.guidance = values.count("guidance", 0);
   settings.margin = std::min(kMostMargin, values.count("margin", settings.margin));
+  settings.guide_again = values.count("guide_again", settings.guide_again);
   settings.swap = values.flag("swap", settings.swap);
   settings.polish = values.count("polish", settings.polish);
   settings.memory = values.count("memory", settings.memory);
@@ -150,6 +163,12 @@ SolverInfo LacamSolver::info() {
            std::to_string(kCrowd) + " robots or more"},
       {"margin", std::to_string(defaults.margin),
        "steps that a scattered path may be longer than the shortest"},
+      {"guide_again", std::to_string(defaults.guide_again),
+       "steps after which all who are away are guided again, on ways where pushing a robot from "
+       "home "
+       "costs what it loses and that may be four margins longer; the first time in three rounds, "
+       "or "
+       "as many as guidance says; 0: never"},
       {"swap", flag(defaults.swap), "robots that block each other in corridors change places"},
       {"polish", std::to_string(defaults.polish),
        "passes over the plan found that give robots earlier paths, for half the search's "
@@ -166,19 +185,17 @@ SolveResult LacamSolver::run(const SolveRequest& request) const {
   if (auto refusal = refuse(instance, *settings_, deadline)) return *std::move(refusal);
   SolveResult result;
   result.lower_bound = lowerBound(instance, settings_->objective);
-  // Its memory, and the tables that it holds, are free before the plan is polished.
-  auto search = std::make_unique<LacamSearch>(instance, *settings_, request.threads, deadline);
-  const LacamSearch::Outcome outcome = search->run();
-  result.high_level_nodes = search->configurations();
-  result.low_level_expansions = search->expansions();
-  if (outcome != LacamSearch::Outcome::kFound) {
-    reportFailure(outcome, *settings_, deadline, result);
+  CrowdSearchResult found = settings_->guide_again > 0
+                                ? searchCrowd(instance, *settings_, request.threads, deadline)
+                                : searchFromStart(request, *settings_);
+  result.high_level_nodes = found.configurations;
+  result.low_level_expansions = found.expansions;
+  if (found.outcome != LacamSearch::Outcome::kFound) {
+    reportFailure(found.outcome, *settings_, deadline, result);
     return result;
   }
   result.termination = Termination::kSolved;
-  result.plan = search->plan();
-  search.reset();
-  result.plan = compactInTime(*std::move(result.plan), instance.graph().size(), deadline);
+  result.plan = compactInTime(std::move(found.plan), instance.graph().size(), deadline);
   polish(request, *settings_, result);
   certifyByLowerBound(result, settings_->objective, kName);
   return result;

@@ -65,6 +65,70 @@ TEST(Crowd, SawItsFirstPlanOnlyOnceItWasPolished) {
   EXPECT_EQ(valuesOfLastResort(4100, false), Values()) << "a good plan is worth its polish";
 }
 
+/// Everybody has one step to go, and the solver makes three of it unless it is told to take longer.
+PlanReport planOfStrollers(std::uint32_t robots, Objective objective, bool loose_plans = true,
+                           bool gains = true, double refine_sec = 0.1) {
+  const auto walk = [](bool straight) {
+    return [straight](const Instance& instance, const Deadline&) {
+      SolveResult result;
+      result.termination = Termination::kSolved;
+      result.plan.emplace();
+      for (std::uint32_t i = 0; i < instance.robots(); ++i) {
+        Path path(straight ? 1 : 3, instance.start(i));
+        path.push_back(instance.goal(i));
+        result.plan->paths.push_back(path);
+      }
+      return result;
+    };
+  };
+  SolverTraits traits;
+  traits.complete = true;
+  traits.loose_plans = loose_plans;
+  SolverInfo info = test::fakeSolver("lacam", walk(false), traits);
+  info.options = {{"guide_again", "0", "takes longer"}};
+  info.make = [=, make = info.make](const SolverOptions& options) {
+    const bool longer = options.values.count("guide_again") > 0 && gains;
+    return longer ? test::fakeSolver("lacam", walk(true), traits).make(options) : make(options);
+  };
+  SolverRegistry registry;
+  registry.add(info);
+  constexpr std::uint32_t kSide = 70;
+  auto grid = std::make_shared<const Grid>(kSide, kSide,
+                                           std::vector<bool>(std::size_t{kSide} * kSide, true));
+  std::vector<Vertex> starts(robots);
+  std::vector<Vertex> goals(robots);
+  for (std::uint32_t i = 0; i < robots; ++i) {
+    starts[i] = i;
+    goals[i] = i + kSide;
+  }
+  Executor executor(1);
+  PlanRequest request;
+  request.objective = objective;
+  request.refine_sec = refine_sec;
+  const Instance instance = Instance::fromVertices(std::move(grid), starts, goals);
+  return Planner(registry, executor).plan(instance, request, Deadline());
+}
+
+TEST(Crowd, KeptTheDearPlanThatCameSoon) {
+  const PlanReport report = planOfStrollers(4100, Objective::kSumOfCosts);
+  EXPECT_EQ(report.sum_of_costs, 4100U);
+  ASSERT_EQ(report.trace.size(), 2U);
+  EXPECT_EQ(report.trace.front().sum_of_costs, 3 * 4100U) << "the first plan is shown at once";
+  EXPECT_NE(report.message.find("guided again"), std::string::npos) << report.message;
+}
+
+TEST(Crowd, IsGuidedAgainOnlyWhereThatMayPay) {
+  const auto is_guided = [](const PlanReport& report) {
+    return report.message.find("guided again") != std::string::npos;
+  };
+  EXPECT_FALSE(is_guided(planOfStrollers(4000, Objective::kSumOfCosts)));
+  EXPECT_FALSE(is_guided(planOfStrollers(4100, Objective::kMakespan)));
+  EXPECT_FALSE(is_guided(planOfStrollers(4100, Objective::kSumOfCosts, false)));
+  EXPECT_FALSE(is_guided(planOfStrollers(4100, Objective::kSumOfCosts, true, false)));
+  EXPECT_EQ(planOfStrollers(4100, Objective::kSumOfCosts, true, true, 0).trace.size(), 1U)
+      << "the first plan was wanted";
+}
+
 TEST(Crowd, WasSentToASolverOfManyTablesToSaveOneOfSteps) {
   constexpr std::uint32_t kSteps = 400000;  // of 4900 cells: 233 MiB
   EXPECT_TRUE(StepTable(resting(4095), kSteps).isTooLarge());

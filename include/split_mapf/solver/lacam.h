@@ -18,6 +18,8 @@ struct LacamSettings;
 /// Yu, ICRA 2022). Deviations: one configuration a visit instead of ten; guidance trades collisions
 /// against detours; the plan follows the shortest way through the configurations seen and is
 /// compacted and polished.
+/// With the option guide_again a crowd walks by PIBT first, guided again and again by what pushing
+/// robots from home costs, and the search goes on from where the walk ends (docs/lacam.md).
 /// Robots need no room: where all cells are taken they rotate.
 class LacamSolver : public Solver {
  public:

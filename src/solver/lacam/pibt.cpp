@@ -5,10 +5,11 @@
 namespace split_mapf {
 
 Pibt::Pibt(const Instance& instance, const RobotDistances& distances, const Guidance* guidance,
-           bool swap, std::uint64_t seed)
+           bool swap, std::uint64_t seed, const StepPrices* prices)
     : graph_(instance.graph()),
       distances_(distances),
       guidance_(guidance),
+      prices_(prices),
       swap_(swap),
       engine_(seed),
       robot_at_(instance.graph().size(), kNoRobot),
@@ -86,7 +87,7 @@ void Pibt::sortChoices(Frame& frame, Vertex at) {
   const auto insert = [&](Vertex v) {
     std::uint64_t key = 0;
     if (v != guided) {
-      key = (std::uint64_t{distances_(frame.robot, v)} + 1) << 12 | (random & 0xfffU);
+      key = (keyOf(frame.robot, v) + 1) << 12 | (random & 0xfffU);
     }
     random >>= 12;
     std::uint32_t place = frame.count++;
@@ -99,6 +100,10 @@ void Pibt::sortChoices(Frame& frame, Vertex at) {
   };
   for (const Vertex v : graph_.neighbours(at)) insert(v);
   insert(at);
+}
+
+std::uint64_t Pibt::keyOf(std::uint32_t robot, Vertex v) const {
+  return prices_ == nullptr ? distances_(robot, v) : prices_->priceOf(robot, v, robot_at_[v]);
 }
 
 Pibt::Step Pibt::advance(const Configuration& from, Configuration& next) {

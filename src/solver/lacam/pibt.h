@@ -7,6 +7,7 @@
 #include "search/explored.h"
 #include "solver/lacam/guidance.h"
 #include "solver/lacam/robot_distances.h"
+#include "solver/lacam/step_prices.h"
 #include "solver/lacam/swap_rule.h"
 #include "split_mapf/core/instance.h"
 #include "split_mapf/core/random.h"
@@ -20,9 +21,11 @@ namespace split_mapf {
 /// Source: Okumura et al., Artificial Intelligence 310 (2022). Without recursion. Not thread-safe.
 class Pibt {
  public:
-  /// @param guidance  may be null. The references outlive this object.
+  /// @param guidance  may be null.
+  /// @param prices  null: robots choose by guidance and distance; else by these alone. The
+  /// references outlive this object.
   Pibt(const Instance& instance, const RobotDistances& distances, const Guidance* guidance,
-       bool swap, std::uint64_t seed);
+       bool swap, std::uint64_t seed, const StepPrices* prices = nullptr);
 
   /// Gives every robot whose place in `next` is kNoVertex a place. @return whether all robots got
   /// one without conflicts; `next` is of no use otherwise. @pre who has a place in `next` gets
@@ -49,12 +52,14 @@ class Pibt {
   bool move(std::uint32_t robot, const Configuration& from, Configuration& next);
   void open(std::uint32_t robot, const Configuration& from, const Configuration& next);
   void sortChoices(Frame& frame, Vertex at);
+  std::uint64_t keyOf(std::uint32_t robot, Vertex v) const;
   Step advance(const Configuration& from, Configuration& next);
   void follow(const Frame& frame, const Configuration& from, Configuration& next);
 
   const Graph& graph_;
   const RobotDistances& distances_;
   const Guidance* guidance_;
+  const StepPrices* prices_;
   bool swap_;
   RandomEngine engine_;
   std::vector<std::uint32_t> robot_at_;    // by vertex, now

@@ -21,7 +21,9 @@ struct LacamSettings {
   bool check = true;  ///< ask solvability/solvability first
   /// Rounds in which robots choose scattered paths; 0: no guidance. Set: asked for.
   std::optional<std::uint64_t> guidance;
-  std::uint64_t margin = 10;   ///< steps that a scattered path may be longer than the shortest
+  std::uint64_t margin = 10;  ///< steps that a scattered path may be longer than the shortest
+  /// Steps after which everybody is guided again, by prices; 0: never, see CrowdWalk.
+  std::uint64_t guide_again = 0;
   bool swap = true;            ///< robots that block each other change places
   std::uint64_t polish = 3;    ///< passes over the plan found
   std::uint64_t memory = 512;  ///< MiB that configurations may take
