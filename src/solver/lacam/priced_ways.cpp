@@ -88,7 +88,7 @@ void PricedSearch::push(Vertex v, std::uint32_t value, Vertex towards) {
   if (values_[v] == PricedWays::kUnknown) known_.push_back(v);
   values_[v] = static_cast<std::uint16_t>(value);
   towards_[v] = towards;
-  const std::size_t key = std::size_t{value} + estimate(v) * kStep - base_;
+  const std::size_t key = value + estimate(v) * std::size_t{kStep} - base_;
   if (key >= buckets_.size()) buckets_.resize(2 * key + 1);
   last_bucket_ = std::max(last_bucket_, key);
   buckets_[key].push_back(v);
