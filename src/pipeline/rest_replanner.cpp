@@ -22,9 +22,9 @@ constexpr std::uint64_t kSinglyOneIn = 3;
 // What is done with each visit beside the searches (orders, checks, forecasts) takes as long as so
 // many states; to take rings out so many more.
 constexpr std::uint64_t kStatesAVisit = 2;
-constexpr std::uint64_t kStatesAVisitOfRings = 1;
+constexpr std::uint64_t kStatesAVisitOfRings = 2;
 // So many visits that come to the table of paths, or go, take as long as a state.
-constexpr std::uint64_t kChangesAState = 3;
+constexpr std::uint64_t kChangesAState = 2;
 // Visits cost no more than one in so many of the budget: of long plans something must be left to
 // search.
 constexpr std::uint64_t kVisitsOneIn = 2;
@@ -69,6 +69,7 @@ class RestRun {
     if (has_rings) rest = takeOutRings(instance, std::move(rest));
     rest = improve(instance, std::move(rest), seed);
     requireValid(instance, rest);
+    answer_.expansions = work_.expansions;
     judge(concatenate(graph_, cut_, rest));
     return std::move(answer_);
   }
@@ -96,8 +97,8 @@ class RestRun {
 
   /// Those that are there when half of what was left is spent stay for the next replan.
   Plan takeOutRings(const Instance& instance, Plan rest) {
-    rest = breakRings(instance, std::move(rest), Departures(departures_), deadline_,
-                      &answer_.expansions, left() / 2);
+    rest = breakRings(instance, std::move(rest), Departures(departures_), deadline_, &work_,
+                      left() / 2);
     const Precedence order(rest, whole_.graph().size());
     spent_ += std::min(kStatesAVisitOfRings * order.size(), budget_ / kVisitsOfRingsOneIn);
     return soonest(order, !findRings(order).empty());
@@ -146,15 +147,15 @@ class RestRun {
     effort.avoids_rings = avoids_rings;
     ReservationTable table(instance.graph().size(), rest, headway_);
     effort.table = &table;
+    effort.work = &work_;
     changes_before_ = table.changes();
     const std::uint64_t until = spent() + left() / kSinglyOneIn;
-    effort.go_on = [&, until](std::uint64_t more, std::uint64_t) {
-      answer_.expansions += more;
+    effort.go_on = [&, until](std::uint64_t, std::uint64_t) {
       chargeChanges(table);
       return spent() < until;
     };
     rest = replanSingly(instance, std::move(rest), effort, withinWhatIsLeft());
-    const std::uint64_t before = answer_.expansions;
+    const SearchWork before = work_;
     NeighbourhoodSearch search(instance, std::move(table), std::move(rest), kForever - 1, seed,
                                departures);
     const auto makes_no_ring = [&](const std::vector<PathChange>& changes) {
@@ -166,11 +167,11 @@ class RestRun {
     std::uint64_t delay = sumOfCostsOf(search.plan());
     for (const std::uint32_t step : departures.soonestArrivals(instance)) delay -= step;
     // What a try costs beside its states: robots are looked through for one that is late.
-    const std::uint64_t look = 64 + instance.robots() / 8;
-    const Deadline capped = withinWhatIsLeft();
+    const std::uint64_t look = 64 + instance.robots() / 16;
     while (delay > 0 && left() > 0 && !deadline_.expired()) {
-      delay -= static_cast<std::uint64_t>(search.tryOne(capped, makes_no_ring));
-      answer_.expansions = before + search.expansions();
+      delay -= static_cast<std::uint64_t>(search.tryOne(withinWhatIsLeft(), makes_no_ring));
+      work_ = before;
+      work_ += search.work();
       chargeChanges(search.table());
       spent_ += look;
     }
@@ -188,7 +189,7 @@ class RestRun {
   }
 
   /// In states.
-  std::uint64_t spent() const { return spent_ + spent_on_changes_ + answer_.expansions; }
+  std::uint64_t spent() const { return spent_ + spent_on_changes_ + work_.states(); }
 
   std::uint64_t left() const { return budget_ - std::min(budget_, spent()); }
 
@@ -249,7 +250,8 @@ class RestRun {
   Cut cut_;
   std::vector<std::uint32_t> departures_;  // [steps] behind the cut
   std::uint64_t budget_ = 0;               // [states]
-  std::uint64_t spent_ = 0;                // beside the searches' own
+  SearchWork work_;                        // of all searches
+  std::uint64_t spent_ = 0;                // beside that
   std::uint64_t changes_before_ = 0;       // of the table, when it was made
   std::uint64_t spent_on_changes_ = 0;     // since then
   std::uint32_t headway_ = 0;              // [steps] that the plans of the rest keep

@@ -86,7 +86,7 @@ Path EjectionChain::search(const ChainStart& start, const Link& link, std::uint3
   table_->toggleHeadway(link.path, link.kept);
   GapAnswer answer = search_.search(query, deadline);
   table_->toggleHeadway(link.path, link.kept);
-  expansions_ += answer.expansions;
+  work_ += answer.work;
   if (!answer.path.empty()) {
     std::copy_n(link.path.begin(), link.kept, answer.path.begin());
     while (answer.path.size() > 1 && *(answer.path.end() - 2) == answer.path.back()) {

@@ -59,7 +59,7 @@ class EjectionChain {
   /// was.
   void undo(const Plan& plan, ReservationTable& table);
   /// Of all runs.
-  std::uint64_t expansions() const { return expansions_; }
+  const SearchWork& work() const { return work_; }
 
  private:
   /// A robot of the chain: it has a place on its path, or waits for one.
@@ -89,7 +89,7 @@ class EjectionChain {
   EvictionSearch search_;
   WaitPlacer waits_;
   std::vector<std::uint32_t> weights_;  // by robot, 1 but in a chain; then of the reserved paths
-  std::uint64_t expansions_ = 0;
+  SearchWork work_;
 
   const Plan* plan_ = nullptr;  // during a run, as are all of these
   ReservationTable* table_ = nullptr;

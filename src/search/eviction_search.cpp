@@ -19,10 +19,16 @@ GapAnswer EvictionSearch::search(const EvictionQuery& query, const Deadline& dea
   narrow_ = query.distances->narrowEntries();
   reset();
   if (!pushStart()) return answer;
+  findArrival(answer, deadline);
+  answer.work.tenths += SearchWork::kTenthsAnEviction * queue_.states().size();
+  return answer;
+}
+
+void EvictionSearch::findArrival(GapAnswer& answer, const Deadline& deadline) {
   for (std::uint64_t turn = 1; hasTurn(); ++turn) {
     if (turn % kPollEvery == 0 && deadline.expired()) {
       answer.interrupted = true;
-      return answer;
+      return;
     }
     if (isEvictionsTurn()) {
       evictFrom(turn_[evicted_++]);
@@ -31,13 +37,12 @@ GapAnswer EvictionSearch::search(const EvictionQuery& query, const Deadline& dea
     const std::uint32_t index = queue_.pop();
     if (queue_[index].towards == kArrived) {
       answer.path = queue_.pathTo(index);
-      return answer;
+      return;
     }
     if (isOutdated(queue_[index])) continue;
-    ++answer.expansions;
+    ++answer.work.expansions;
     expand(index);
   }
-  return answer;
 }
 
 void EvictionSearch::reset() {

@@ -57,6 +57,7 @@ class EvictionSearch {
   };
   static bool comesLater(const Waiting& a, const Waiting& b);
 
+  void findArrival(GapAnswer& answer, const Deadline& deadline);
   void reset();
   bool pushStart();
   void leaveGaps();

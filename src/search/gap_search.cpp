@@ -40,7 +40,9 @@ inline void GapSearch::move(const State& state, std::uint32_t index, Vertex to) 
 void GapSearch::expand(std::uint32_t index) {
   const State state = queue_[index];
   estimate_ = state.time + distanceOf(state.vertex);
-  for (const Vertex to : graph_.neighbours(state.vertex)) move(state, index, to);
+  const auto neighbours = graph_.neighbours(state.vertex);
+  looks_ += neighbours.size();
+  for (const Vertex to : neighbours) move(state, index, to);
 }
 
 bool GapSearch::isStartFree() const {
@@ -72,12 +74,9 @@ bool GapSearch::begin() {
   return true;
 }
 
-GapAnswer GapSearch::search(const GapQuery& query, const Deadline& deadline) {
-  query_ = &query;
-  narrow_ = query.distances->narrowEntries();
-  GapAnswer answer;
-  if (!begin()) return answer;
-  const Vertex goal = query.distances->goal();
+/// @return false if the deadline came before it was known whether there is a path.
+bool GapSearch::findArrival(std::uint64_t& expansions, const Deadline& deadline) {
+  const Vertex goal = query_->distances->goal();
   while (arrived_ == kNoState && !queue_.empty()) {
     const std::uint32_t index = queue_.pop();
     const State& state = queue_[index];
@@ -86,13 +85,22 @@ GapAnswer GapSearch::search(const GapQuery& query, const Deadline& deadline) {
       arrived_ = index;
       break;
     }
-    if (++answer.expansions % kPollEvery == 0 && deadline.expired()) {
-      answer.interrupted = true;
-      return answer;
-    }
+    if (++expansions % kPollEvery == 0 && deadline.expired()) return false;
     expand(index);
   }
-  if (arrived_ != kNoState) answer.path = queue_.pathTo(arrived_);
+  return true;
+}
+
+GapAnswer GapSearch::search(const GapQuery& query, const Deadline& deadline) {
+  query_ = &query;
+  narrow_ = query.distances->narrowEntries();
+  looks_ = 0;
+  GapAnswer answer;
+  if (!begin()) return answer;
+  answer.interrupted = !findArrival(answer.work.expansions, deadline);
+  answer.work.tenths =
+      SearchWork::kTenthsALook * looks_ + SearchWork::kTenthsAPlace * queue_.states().size();
+  if (arrived_ != kNoState && !answer.interrupted) answer.path = queue_.pathTo(arrived_);
   return answer;
 }
 

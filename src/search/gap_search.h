@@ -38,11 +38,29 @@ inline GapQuery queryFrom(const Path& path, std::uint32_t kept, const DistanceTa
   return query;
 }
 
+/// What searches did, and how long that takes, counted in states. A state takes longer where it has
+/// more neighbours, and where more of these were not reached yet.
+struct SearchWork {
+  static constexpr std::uint64_t kTenthsALook = 1;   ///< of a state, at a neighbour
+  static constexpr std::uint64_t kTenthsAPlace = 5;  ///< for a vertex and step that was reached
+  static constexpr std::uint64_t kTenthsAnEviction = 10;  ///< the same if robots may be evicted
+
+  std::uint64_t expansions = 0;
+  std::uint64_t tenths = 0;  ///< of an ordinary state, that they took as long as
+
+  std::uint64_t states() const { return tenths / 10; }
+  SearchWork& operator+=(const SearchWork& other) {
+    expansions += other.expansions;
+    tenths += other.tenths;
+    return *this;
+  }
+};
+
 /// The answer; `path` is empty when there is none (or when the deadline came: `interrupted`).
 struct GapAnswer {
   Path path;
   bool interrupted = false;
-  std::uint64_t expansions = 0;
+  SearchWork work;
 };
 
 /// Finds the path among placed robots that arrives first, holding the goal for good.
@@ -81,6 +99,7 @@ class GapSearch {
 
  private:
   bool begin();
+  bool findArrival(std::uint64_t& expansions, const Deadline& deadline);
   bool isStartFree() const;
   void expand(std::uint32_t index);
   void move(const State& state, std::uint32_t index, Vertex to);
@@ -97,6 +116,7 @@ class GapSearch {
   std::uint32_t first_estimate_ = 0;
   std::uint32_t estimate_ = 0;        // of the state that is expanded
   std::uint32_t arrived_ = kNoState;  // a state that holds the goal as soon as any can
+  std::uint64_t looks_ = 0;           // at neighbours
   ReachedSteps reached_;
   BucketQueue<State> queue_;  // over arrival
 };

@@ -82,7 +82,7 @@ Path NeighbourhoodSearch::search(const Member& member, std::uint32_t latest_arri
   const GapQuery query = queryFrom(before, member.kept, *distances, table_, latest_arrival);
   table_.toggleHeadway(before, member.kept);
   GapAnswer answer = search_.search(query, deadline);
-  expansions_ += answer.expansions;
+  work_ += answer.work;
   if (!answer.path.empty()) {
     std::copy_n(before.begin(), member.kept, answer.path.begin());
     while (answer.path.size() > 1 && *(answer.path.end() - 2) == answer.path.back()) {
@@ -151,7 +151,7 @@ std::int64_t NeighbourhoodSearch::tryNeighbourhood(const Deadline& deadline, con
     picker_.reward(0, 0);
     return 0;
   }
-  const std::uint64_t expansions_before = expansions_;
+  const std::uint64_t expansions_before = work_.expansions;
   for (const Member& member : members_) {
     table_.removeTail(member.robot, plan_.paths[member.robot], member.kept);
   }
@@ -164,7 +164,7 @@ std::int64_t NeighbourhoodSearch::tryNeighbourhood(const Deadline& deadline, con
   const std::int64_t gain =
       taken ? static_cast<std::int64_t>(budget_) - static_cast<std::int64_t>(loss_) : 0;
   picker_.reward(static_cast<std::uint64_t>(std::max<std::int64_t>(0, gain)),
-                 expansions_ - expansions_before);
+                 work_.expansions - expansions_before);
   return gain;
 }
 

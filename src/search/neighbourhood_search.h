@@ -54,7 +54,11 @@ class NeighbourhoodSearch {
   const Plan& plan() const { return plan_; }
   /// Of the plan; while a change is asked about, with that change.
   const ReservationTable& table() const { return table_; }
-  std::uint64_t expansions() const { return expansions_ + chain_.expansions(); }
+  std::uint64_t expansions() const { return work().expansions; }
+  SearchWork work() const {
+    SearchWork sum = work_;
+    return sum += chain_.work();
+  }
 
  private:
   /// A robot of the neighbourhood and the part of its path that it keeps.
@@ -93,7 +97,7 @@ class NeighbourhoodSearch {
   EjectionChain chain_;
   Plan plan_;
   ReservationTable table_;
-  std::uint64_t expansions_ = 0;  // by neighbourhoods
+  SearchWork work_;  // by neighbourhoods
   Neighbourhood picked_;
   std::vector<Member> members_;      // of the current neighbourhood, as are all of these
   std::vector<PathChange> changes_;  // of the first members

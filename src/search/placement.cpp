@@ -154,7 +154,7 @@ Placement::Outcome Placement::run(std::uint32_t horizon, const Effort& effort,
     postponed.clear();
     bool interrupted = false;
     for (Candidate& candidate : batch_) {
-      expansions_ += candidate.answer.expansions;
+      expansions_ += candidate.answer.work.expansions;
       interrupted = interrupted || candidate.answer.interrupted;
       if (interrupted || !place(candidate, effort.displacements)) {
         postponed.push_back(candidate.robot);

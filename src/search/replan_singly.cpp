@@ -79,18 +79,19 @@ class BatchReplanning {
     batch_.assign(queue_.begin(), queue_.begin() + static_cast<std::ptrdiff_t>(size));
     queue_.erase(queue_.begin(), queue_.begin() + static_cast<std::ptrdiff_t>(size));
     searchBatch();
-    std::uint64_t expansions = 0;
+    SearchWork work;
     const std::uint64_t gained_before = gained_;
     postponed_.clear();
     changes_.clear();
     for (std::size_t i = 0; i < size; ++i) {
-      expansions += answers_[i].expansions;
+      work += answers_[i].work;
       if (!take(batch_[i], std::move(answers_[i].path))) postponed_.push_back(batch_[i]);
     }
     tellTheOthers();
     queue_.insert(queue_.begin(), postponed_.begin(), postponed_.end());
     batch_size_.adapt(size, postponed_.size());
-    spent_ = effort_.go_on && !effort_.go_on(expansions, gained_ - gained_before);
+    if (effort_.work != nullptr) *effort_.work += work;
+    spent_ = effort_.go_on && !effort_.go_on(work.expansions, gained_ - gained_before);
   }
 
   void searchBatch() {

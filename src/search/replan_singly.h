@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "search/departures.h"
+#include "search/gap_search.h"
 #include "search/reservation_table.h"
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
@@ -20,7 +21,8 @@ struct ReplanEffort {
   /// Asked after each batch of searches with the states that they expanded and the steps that they
   /// took off the sum of costs; no ends the passes. Null: it never does.
   std::function<bool(std::uint64_t expansions, std::uint64_t gained)> go_on;
-  Departures departures = {};              ///< kept by the plan, as by what comes of it
+  SearchWork* work = nullptr;  ///< grows by that of each batch before that; null: nobody counts it
+  Departures departures = {};  ///< kept by the plan, as by what comes of it
   const Reservations* reserved = nullptr;  ///< likewise; null: nothing is reserved
   std::uint32_t headway = 0;               ///< likewise, see ReservationTable
   bool avoids_rings = false;               ///< takes no path that closes one, see closesRing()

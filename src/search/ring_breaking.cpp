@@ -41,14 +41,14 @@ class RingBreaking {
         table_(instance.graph().size(), plan_),
         search_(instance.graph()) {}
 
-  std::uint64_t expansions() const { return expansions_; }
+  const SearchWork& work() const { return work_; }
 
   Plan run(Precedence order) {
     for (int round = 0; round < kRounds; ++round) {
       if (round > 0) order = Precedence(plan_, instance_.graph().size());
       bool broken = false;
       for (const Ring& ring : findRings(order)) {
-        if (expansions_ >= most_) return std::move(plan_);
+        if (work_.states() >= most_) return std::move(plan_);
         if (stillRotates(order, ring)) broken = breakOne(order, ring) || broken;
       }
       if (!broken || deadline_.expired()) break;
@@ -115,7 +115,7 @@ class RingBreaking {
     const HeldDistances distances = instance_.distances(visit.robot);
     const GapQuery query = queryFrom(own, kept, *distances, table_, latest_arrival);
     GapAnswer answer = search_.search(query, deadline_);
-    expansions_ += answer.expansions;
+    work_ += answer.work;
     table_.toggleStep(visit.vertex, visit.step);
     table_.insertTail(visit.robot, own, kept);
     Path& path = answer.path;
@@ -132,18 +132,18 @@ class RingBreaking {
   Plan plan_;
   ReservationTable table_;
   GapSearch search_;
-  std::uint64_t expansions_ = 0;
+  SearchWork work_;
 };
 
 }  // namespace
 
 Plan breakRings(const Instance& instance, Plan plan, const Departures& departures,
-                const Deadline& deadline, std::uint64_t* expansions, std::uint64_t most) {
+                const Deadline& deadline, SearchWork* work, std::uint64_t most) {
   Precedence order(plan, instance.graph().size());
   if (findRings(order).empty()) return plan;
   RingBreaking breaking(instance, std::move(plan), departures, deadline, most);
   Plan broken = breaking.run(std::move(order));
-  if (expansions != nullptr) *expansions += breaking.expansions();
+  if (work != nullptr) *work += breaking.work();
   return broken;
 }
 

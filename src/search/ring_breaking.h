@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "search/departures.h"
+#include "search/gap_search.h"
 #include "search/reservation_table.h"
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/instance.h"
@@ -15,11 +16,10 @@ namespace split_mapf {
 /// it does not close the ring. What such a path closes anew is broken in turn, a few times over.
 /// Some rings may stay, where nobody can go elsewhere; the plan stays valid, and keeps departures.
 /// Ours. Cost: O(visits), and for each robot of a ring a GapSearch from shortly before it; from the
-/// robot's start only where that finds nothing. @param expansions  grows by the states of these
-/// searches; null: nobody counts them. @param most  of these, once which are made the other rings
-/// stay.
+/// robot's start only where that finds nothing. @param work  grows by that of these searches;
+/// null: nobody counts it. @param most  of its states, once which are spent the other rings stay.
 Plan breakRings(const Instance& instance, Plan plan, const Departures& departures,
-                const Deadline& deadline, std::uint64_t* expansions = nullptr,
+                const Deadline& deadline, SearchWork* work = nullptr,
                 std::uint64_t most = ~std::uint64_t{0});
 
 /// Whether a robot whose path is in the table rotates with others at some step behind `from`: who

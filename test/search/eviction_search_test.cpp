@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -257,6 +258,48 @@ TEST(EvictionSearch, OneSearchServesManyQuestions) {
       EXPECT_EQ(path.size(), distances(c.start) + 1U);
     }
   }
+}
+
+/// Counted in expansions alone a search in a lane would pay as much as one in a field.
+TEST(SearchWork, AStateCostsMoreWhereMoreLiesAroundIt) {
+  const auto work_on = [](const std::vector<std::string>& rows, Vertex start, Vertex goal) {
+    const auto grid = test::gridFromAscii(rows);
+    const ReservationTable table(grid->size());
+    const DistanceTable distances(grid->graph(), goal);
+    GapQuery query;
+    query.start = start;
+    query.distances = &distances;
+    query.placed = &table;
+    const GapAnswer answer = GapSearch(grid->graph()).search(query, Deadline());
+    EXPECT_EQ(answer.path.size(), distances(start) + 1U);
+    return answer.work;
+  };
+  const SearchWork lane = work_on({"............"}, 0, 11);
+  const SearchWork field = work_on({"............", "............", "............"}, 12, 23);
+  EXPECT_EQ(lane.expansions, field.expansions) << "both go straight on";
+  EXPECT_EQ(lane.tenths, SearchWork::kTenthsALook * (1 + 2 * 10) + SearchWork::kTenthsAPlace * 12);
+  EXPECT_GT(field.tenths, 2 * lane.tenths);
+}
+
+/// Whoever evicts looks at the same places again, and at who is there.
+TEST(SearchWork, EvictingCostsMore) {
+  const auto grid = test::gridFromAscii({"......"});
+  ReservationTable table(grid->size());
+  table.insert(0, Path(1, 3));
+  const std::vector<std::uint32_t> weights = {1};
+  const DistanceTable distances(grid->graph(), 5);
+  EvictionQuery query;
+  query.start = 0;
+  query.distances = &distances;
+  query.placed = &table;
+  query.latest_arrival = 20;
+  EvictionSearch search(grid->graph());
+  const GapAnswer alone = search.search(query, Deadline());
+  EXPECT_TRUE(alone.path.empty());
+  query.weights = &weights;
+  const GapAnswer evicting = search.search(query, Deadline());
+  EXPECT_EQ(evicting.path.size(), 6U);
+  EXPECT_GE(evicting.work.tenths, alone.work.tenths + 6 * SearchWork::kTenthsAnEviction);
 }
 
 }  // namespace

@@ -24,11 +24,12 @@ TEST(RingBreaking, BreaksARotationFromShortlyBeforeIt) {
   const Instance instance = test::instanceOf(grid, plan);
   ASSERT_TRUE(validate(instance, plan).empty());
   ASSERT_TRUE(rotates(plan, grid->size()));
-  std::uint64_t expansions = 0;
-  const Plan broken = breakRings(instance, plan, {}, Deadline(), &expansions);
+  SearchWork work;
+  const Plan broken = breakRings(instance, plan, {}, Deadline(), &work);
   EXPECT_TRUE(validate(instance, broken).empty());
   EXPECT_FALSE(rotates(broken, grid->size()));
-  EXPECT_GT(expansions, 0U);
+  EXPECT_GT(work.expansions, 0U);
+  EXPECT_GT(work.tenths, 0U);
   EXPECT_LE(sumOfCostsOf(broken), sumOfCostsOf(plan) + 2) << "one robot waits, or goes around";
 }
 

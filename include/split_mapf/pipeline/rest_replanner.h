@@ -14,12 +14,14 @@ namespace split_mapf {
 
 /// How much a replan may cost. Counted in expansions, so that runs can be repeated.
 struct ReplanBudget {
-  /// States of all searches; what is done beside them for a visit counts as a few of them.
+  /// States of all searches. All that is done counts as so many of them as take as long: a search
+  /// that looks at more neighbours and reaches more places for each state, that may evict, paths
+  /// that are taken out and put back, and each visit of the rest.
   /// 0: kDefaultExpansions a robot, and kLeastExpansions at least.
   std::uint64_t expansions = 0;
   std::uint64_t seed = 0;
-  static constexpr std::uint64_t kDefaultExpansions = 1000;
-  static constexpr std::uint64_t kLeastExpansions = 500000;
+  static constexpr std::uint64_t kDefaultExpansions = 1350;
+  static constexpr std::uint64_t kLeastExpansions = 700000;
 };
 
 /// What a replan may rely on.
