@@ -42,7 +42,7 @@ struct SimulationOptions {
   /// `release` means nothing. Null: a grid.
   std::shared_ptr<const CloseMoves> moves;
   double turn_time = 0;             ///< [steps] of a quarter turn in place, >= 0
-  std::uint32_t replan_period = 3;  ///< [steps] between replans, >= 1
+  std::uint32_t replan_period = 1;  ///< [steps] between replans, >= 1
   ReplanBudget budget;
   bool avoid_rings = true;  ///< with a release above 0: see RestReplanner; policy kReplan only
   std::uint32_t step_limit = 1000000;  ///< the simulation gives up then
