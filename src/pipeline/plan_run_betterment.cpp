@@ -19,7 +19,7 @@ namespace {
 
 // An option of whoever can guide a crowd again on its way, and what it is told [steps].
 constexpr const char* kGuideAgain = "guide_again";
-constexpr const char* kGuideInterval = "20";
+constexpr const char* kGuideInterval = "30";
 
 }  // namespace
 
