@@ -1,6 +1,7 @@
 #include "search/eviction_search.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace split_mapf {
 namespace {
@@ -16,7 +17,7 @@ GapAnswer EvictionSearch::search(const EvictionQuery& query, const Deadline& dea
   GapAnswer answer = gaps_.search(query, deadline);
   if (!answer.path.empty() || answer.interrupted || query.weights == nullptr) return answer;
   query_ = &query;
-  narrow_ = query.distances->narrowEntries();
+  way_left_.ask(*query.distances, query.rows_and_columns);
   reset();
   if (!pushStart()) return answer;
   findArrival(answer, deadline);
@@ -34,9 +35,12 @@ void EvictionSearch::findArrival(GapAnswer& answer, const Deadline& deadline) {
       evictFrom(turn_[evicted_++]);
       continue;
     }
-    const std::uint32_t index = queue_.pop();
+    answer.cut_short = answer.cut_short || expanded_.size() >= query_->hurry.end;
+    const std::uint32_t index = expanded_.size() < query_->hurry.end ? queue_.pop() : leaveWeight();
+    if (index == kNone) continue;
     if (queue_[index].towards == kArrived) {
       answer.path = queue_.pathTo(index);
+      answer.cut_short = false;
       return;
     }
     if (isOutdated(queue_[index])) continue;
@@ -80,7 +84,7 @@ bool EvictionSearch::isOutdated(const State& state) {
 }
 
 bool EvictionSearch::pushStart() {
-  if ((*query_->distances)(query_->start) == DistanceTable::kUnreachable) return false;
+  if (distanceOf(query_->start) == DistanceTable::kUnreachable) return false;
   if (!gaps_.states().empty()) {
     leaveGaps();
     return true;
@@ -144,9 +148,31 @@ bool EvictionSearch::isEvictionsTurn() {
   return queue_.empty() || keyOf(turn_[evicted_]) < queue_.leastKey();
 }
 
+/// What is open counts as expanded, and nobody more of that weight is evicted. @return one that has
+/// arrived; kNone: there is none.
+std::uint32_t EvictionSearch::leaveWeight() {
+  while (!queue_.empty()) {
+    const std::uint32_t index = queue_.pop();
+    if (queue_[index].towards == kArrived) return index;
+    expanded_.push_back(index);
+  }
+  evicted_ = turn_.size();
+  return kNone;
+}
+
+/// Whose keys also fall along a path were not expanded in their order.
+void EvictionSearch::sortTurn() {
+  std::vector<std::pair<std::size_t, std::uint32_t>> keys;
+  keys.reserve(turn_.size());
+  for (const std::uint32_t index : turn_) keys.emplace_back(keyOf(index), index);
+  std::sort(keys.begin(), keys.end());
+  for (std::size_t i = 0; i < keys.size(); ++i) turn_[i] = keys[i].second;
+}
+
 bool EvictionSearch::openNextWeight() {
   turn_.clear();
   turn_.swap(expanded_);
+  if (hurries()) sortTurn();
   evicted_ = 0;
   if (!turn_.empty()) {  // nobody weighs less than 1
     ++weight_;

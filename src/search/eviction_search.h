@@ -63,6 +63,8 @@ class EvictionSearch {
   void leaveGaps();
   bool hasTurn();
   bool isEvictionsTurn();
+  std::uint32_t leaveWeight();
+  void sortTurn();
   bool openNextWeight();
   void openWaiting();
   void open(std::uint32_t index);
@@ -79,23 +81,23 @@ class EvictionSearch {
   bool isOutdated(const State& state);
   bool inTime(Vertex v, std::uint32_t t) const;
   const Stay* nextVisit(Vertex v, std::uint32_t t) const;
-  std::uint32_t distanceOf(Vertex v) const {
-    return narrow_ != nullptr ? narrow_[v] : (*query_->distances)(v);
-  }
+  std::uint32_t distanceOf(Vertex v) const { return way_left_(v); }
   /// What comes first among states of a weight: 3 instead of 2 for the way that is left gains no
   /// more.
   std::size_t keyOf(std::uint32_t time, std::uint32_t distance) const {
+    if (hurries()) return (time + std::size_t{distance}) * query_->hurry.steps_a_delay + distance;
     return time + std::size_t{query_->hasty ? 2U : 1U} * distance;
   }
   std::size_t keyOf(std::uint32_t index) const {
     return keyOf(queue_[index].time, distanceOf(queue_[index].vertex));
   }
+  bool hurries() const { return query_->hurry.begin != Hurry::kNever; }
   std::uint32_t weightOf(const Stay& stay) const { return (*query_->weights)[stay.robot]; }
   bool isFixed(const Stay& stay) const { return weightOf(stay) == EvictionQuery::kFixed; }
 
   const Graph& graph_;
   const EvictionQuery* query_ = nullptr;
-  const std::uint16_t* narrow_ = nullptr;  // the distances, where they have this form
+  WayLeft way_left_;
   GapSearch gaps_;
   ReachedSteps offered_;  // of visits: somebody waits who enters them then, or did
   std::uint32_t latest_arrival_ = 0;

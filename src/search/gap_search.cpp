@@ -20,9 +20,10 @@ inline void GapSearch::push(std::uint32_t parent, Vertex v, std::uint32_t time,
   // Not max(estimate, earliest_hold_): among equals the order in time would be lost, and gaps be
   // reached earlier again and again.
   const std::uint32_t estimate = time + distance;
-  queue_.push({v, time, leave_by, parent}, estimate - first_estimate_);
+  queue_.push({v, time, leave_by, parent}, keyOf(estimate, distance));
   const bool holds = distance == 0 && time >= earliest_hold_;
-  if (holds && time <= std::max(estimate_, earliest_hold_)) {
+  const bool is_first = time <= std::max(estimate_, earliest_hold_);
+  if (holds && (is_first || hurries_)) {
     arrived_ = static_cast<std::uint32_t>(queue_.states().size() - 1);
   }
 }
@@ -53,6 +54,7 @@ bool GapSearch::isStartFree() const {
 bool GapSearch::begin() {
   queue_.clear();
   arrived_ = kNoState;
+  hurries_ = false;
   // Once nobody moves any more the way home takes a step a vertex at most.
   const std::uint64_t longest =
       std::uint64_t{query_->placed->lastChange()} + query_->departure + graph_.size();
@@ -65,7 +67,7 @@ bool GapSearch::begin() {
   const bool at_home = query_->under_way && query_->start == query_->distances->goal();
   const std::uint32_t own_end = query_->departure + 1 + query_->placed->headway();
   if (at_home && earliest_hold_ == own_end) earliest_hold_ = query_->departure;
-  const std::uint32_t distance = (*query_->distances)(query_->start);
+  const std::uint32_t distance = distanceOf(query_->start);
   if (distance == DistanceTable::kUnreachable || earliest_hold_ == kForever) return false;
   first_estimate_ = estimate_ = query_->departure + distance;
   if (std::max(first_estimate_, earliest_hold_) > query_->latest_arrival) return false;
@@ -74,10 +76,23 @@ bool GapSearch::begin() {
   return true;
 }
 
-/// @return false if the deadline came before it was known whether there is a path.
-bool GapSearch::findArrival(std::uint64_t& expansions, const Deadline& deadline) {
+/// Puts what is open into the new order; what came last stays first among equals.
+void GapSearch::beginToHurry() {
+  hurries_ = true;
+  std::vector<std::uint32_t> open;
+  while (!queue_.empty()) open.push_back(queue_.pop());
+  for (auto index = open.rbegin(); index != open.rend(); ++index) {
+    const State& state = queue_[*index];
+    const std::uint32_t distance = distanceOf(state.vertex);
+    queue_.open(*index, keyOf(state.time + distance, distance));
+  }
+}
+
+void GapSearch::findArrival(GapAnswer& answer, const Deadline& deadline) {
   const Vertex goal = query_->distances->goal();
+  std::uint64_t& expansions = answer.work.expansions;
   while (arrived_ == kNoState && !queue_.empty()) {
+    if (expansions == query_->hurry.begin && !hurries_) beginToHurry();
     const std::uint32_t index = queue_.pop();
     const State& state = queue_[index];
     if (isOutdated(state)) continue;
@@ -85,22 +100,28 @@ bool GapSearch::findArrival(std::uint64_t& expansions, const Deadline& deadline)
       arrived_ = index;
       break;
     }
-    if (++expansions % kPollEvery == 0 && deadline.expired()) return false;
+    if (expansions == query_->hurry.end) {
+      answer.cut_short = true;
+      return;
+    }
+    if (++expansions % kPollEvery == 0 && deadline.expired()) {
+      answer.interrupted = true;
+      return;
+    }
     expand(index);
   }
-  return true;
 }
 
 GapAnswer GapSearch::search(const GapQuery& query, const Deadline& deadline) {
   query_ = &query;
-  narrow_ = query.distances->narrowEntries();
+  way_left_.ask(*query.distances, query.rows_and_columns);
   looks_ = 0;
   GapAnswer answer;
   if (!begin()) return answer;
-  answer.interrupted = !findArrival(answer.work.expansions, deadline);
+  findArrival(answer, deadline);
   answer.work.tenths =
       SearchWork::kTenthsALook * looks_ + SearchWork::kTenthsAPlace * queue_.states().size();
-  if (arrived_ != kNoState && !answer.interrupted) answer.path = queue_.pathTo(arrived_);
+  if (arrived_ != kNoState) answer.path = queue_.pathTo(arrived_);
   return answer;
 }
 

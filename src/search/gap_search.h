@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <vector>
 
 #include "search/bucket_queue.h"
@@ -9,9 +12,50 @@
 #include "split_mapf/core/deadline.h"
 #include "split_mapf/core/distance_table.h"
 #include "split_mapf/core/graph.h"
+#include "split_mapf/core/grid.h"
 #include "split_mapf/core/plan.h"
 
 namespace split_mapf {
+
+/// When a search stops looking for the path that arrives first, in expansions, and when it stops
+/// altogether. Never, unless said otherwise.
+struct Hurry {
+  static constexpr std::uint64_t kNever = ~std::uint64_t{0};
+
+  /// From so many on a path is wanted soon: what is left of the way counts then, and a step of
+  /// delay as much as `steps_a_delay` steps of it (weighted A*, Pohl 1970).
+  std::uint64_t begin = kNever;
+  std::uint32_t steps_a_delay = 8;
+  /// After so many there is no answer, which does not mean that there is no path.
+  std::uint64_t end = kNever;
+};
+
+/// The estimate of the way that is left that a query asks for.
+class WayLeft {
+ public:
+  void ask(const DistanceTable& distances, const Grid* rows_and_columns) {
+    distances_ = &distances;
+    narrow_ = distances.narrowEntries();
+    grid_ = rows_and_columns;
+    if (grid_ != nullptr) goal_ = grid_->cellOf(distances.goal());
+  }
+  std::uint32_t operator()(Vertex v) const {
+    // First: what a table happens to know must not change the plan.
+    if (grid_ != nullptr) return rowsAndColumns(v);
+    return narrow_ != nullptr ? narrow_[v] : (*distances_)(v);
+  }
+
+ private:
+  std::uint32_t rowsAndColumns(Vertex v) const {
+    const Cell cell = grid_->cellOf(v);
+    return static_cast<std::uint32_t>(std::abs(cell.x - goal_.x) + std::abs(cell.y - goal_.y));
+  }
+
+  const DistanceTable* distances_ = nullptr;
+  const std::uint16_t* narrow_ = nullptr;  // the distances, where they have this form
+  const Grid* grid_ = nullptr;             // null: the table is read
+  Cell goal_ = {};
+};
 
 /// One robot's question among robots that have paths without conflicts.
 struct GapQuery {
@@ -23,6 +67,11 @@ struct GapQuery {
   /// what it does then or later: it is on its way already, and this is where it may change it.
   bool under_way = false;
   std::uint32_t latest_arrival = kForever - 1;  ///< longest path allowed [steps]
+  Hurry hurry;
+  /// Rows and columns to the goal stand in for distances where this is given, so that no table is
+  /// read: where they say nearly the same. @pre its graph is the search's, each move of it crosses
+  /// one row or column, and there is a way from the start.
+  const Grid* rows_and_columns = nullptr;
 };
 
 /// The question of a robot that keeps its path until step `kept`.
@@ -56,10 +105,12 @@ struct SearchWork {
   }
 };
 
-/// The answer; `path` is empty when there is none (or when the deadline came: `interrupted`).
+/// The answer; `path` is empty when there is none, when the deadline came (`interrupted`) or when
+/// none was found before the end of its hurry (`cut_short`).
 struct GapAnswer {
   Path path;
   bool interrupted = false;
+  bool cut_short = false;
   SearchWork work;
 };
 
@@ -99,20 +150,28 @@ class GapSearch {
 
  private:
   bool begin();
-  bool findArrival(std::uint64_t& expansions, const Deadline& deadline);
+  void findArrival(GapAnswer& answer, const Deadline& deadline);
   bool isStartFree() const;
+  void beginToHurry();
   void expand(std::uint32_t index);
   void move(const State& state, std::uint32_t index, Vertex to);
   void push(std::uint32_t parent, Vertex v, std::uint32_t time, std::uint32_t distance);
-  std::uint32_t distanceOf(Vertex v) const {
-    return narrow_ != nullptr ? narrow_[v] : (*query_->distances)(v);
+  std::uint32_t distanceOf(Vertex v) const { return way_left_(v); }
+  /// What comes first: of the estimated arrivals the earliest, or what looks soon done.
+  std::size_t keyOf(std::uint32_t estimate, std::uint32_t distance) const {
+    if (!hurries_) return estimate - first_estimate_;
+    // Until the goal can be held a delay costs nothing.
+    const std::uint32_t least = std::max(first_estimate_, earliest_hold_);
+    const std::size_t delay = estimate - std::min(estimate, least);
+    return delay * query_->hurry.steps_a_delay + distance;
   }
 
   const Graph& graph_;
   const GapQuery* query_ = nullptr;
-  const std::uint16_t* narrow_ = nullptr;  // the distances, where they have this form
+  WayLeft way_left_;
   std::uint32_t latest_arrival_ = 0;
   std::uint32_t earliest_hold_ = 0;  // from this step on the goal can be held for good
+  bool hurries_ = false;
   std::uint32_t first_estimate_ = 0;
   std::uint32_t estimate_ = 0;        // of the state that is expanded
   std::uint32_t arrived_ = kNoState;  // a state that holds the goal as soon as any can

@@ -1,6 +1,7 @@
 #include "search/placement.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 namespace split_mapf {
@@ -11,6 +12,34 @@ constexpr std::uint32_t kMostQueued = 1000;
 constexpr std::uint32_t kLongestDelay = 20;
 // What is over sooner is no jam, whatever is foreseen: what few robots take of late says little.
 constexpr std::uint64_t kLeastJam = 500000;
+// In a hurry: a team with so many cells a robot takes one expansion a step of the robot's way
+// before it hurries, one with twice as many two. Where there is room most paths are found so, and
+// are the first to arrive; dense teams would look at half the rectangle between start and goal.
+constexpr std::size_t kCellsAnExpansion = 16;
+// Then the search may take so many more until somebody is displaced.
+constexpr std::uint64_t kHurriedAStep = 8;
+constexpr std::uint64_t kHurried = 4000;
+
+// Steps that a shortest way may have besides rows and columns where these stand in for distances: a
+// look at a distance beside the way costs more there than what is searched in vain.
+constexpr std::uint32_t kMostDetour = 8;
+
+bool goesStraight(const Instance& instance, std::uint32_t robot) {
+  const Grid& grid = instance.grid();
+  if (!grid.hasUnitMoves()) return false;
+  const Cell start = grid.cellOf(instance.start(robot));
+  const Cell goal = grid.cellOf(instance.goal(robot));
+  const auto straight =
+      static_cast<std::uint32_t>(std::abs(start.x - goal.x) + std::abs(start.y - goal.y));
+  return instance.shortestLength(robot) <= straight + kMostDetour;
+}
+
+Hurry hurryOf(const Instance& instance, std::uint32_t length) {
+  Hurry hurry;
+  hurry.begin = instance.graph().size() / instance.robots() / kCellsAnExpansion * length;
+  hurry.end = hurry.begin + kHurriedAStep * length + kHurried;
+  return hurry;
+}
 
 }  // namespace
 
@@ -82,18 +111,32 @@ void Placement::drawBatch(std::uint32_t horizon, const Effort& effort) {
 void Placement::searchBatch(std::uint32_t horizon, const Effort& effort, const Deadline& deadline) {
   team_.forEach(static_cast<std::uint32_t>(batch_.size()),
                 [&](std::uint32_t i, std::uint32_t member) {
-                  Candidate& candidate = batch_[i];
-                  EvictionQuery query;
-                  query.placed = &table_;
-                  query.weights = effort.displacements > 0 ? &weights_ : nullptr;
-                  query.hasty = effort.hasty;
-                  query.latest_arrival = horizon;
-                  query.start = instance_.start(candidate.robot);
-                  const HeldDistances distances = instance_.distances(candidate.robot);
-                  query.distances = &*distances;
-                  query.departure = candidate.departure;
-                  candidate.answer = searches_[member].value.search(query, deadline);
+                  search(batch_[i], searches_[member].value, horizon, effort, deadline);
                 });
+}
+
+void Placement::search(Candidate& candidate, EvictionSearch& search, std::uint32_t horizon,
+                       const Effort& effort, const Deadline& deadline) const {
+  EvictionQuery query;
+  query.placed = &table_;
+  query.weights = effort.displacements > 0 ? &weights_ : nullptr;
+  query.hasty = effort.hasty;
+  query.latest_arrival = horizon;
+  query.start = instance_.start(candidate.robot);
+  const HeldDistances distances = instance_.distances(candidate.robot);
+  query.distances = &*distances;
+  query.departure = candidate.departure;
+  if (effort.hurries) {
+    query.hurry = hurryOf(instance_, instance_.shortestLength(candidate.robot));
+    if (goesStraight(instance_, candidate.robot)) query.rows_and_columns = &instance_.grid();
+  }
+  candidate.answer = search.search(query, deadline);
+  if (!candidate.answer.cut_short) return;
+  // It ends when there is none.
+  const SearchWork work = candidate.answer.work;
+  query.hurry.end = Hurry::kNever;
+  candidate.answer = search.search(query, deadline);
+  candidate.answer.work += work;
 }
 
 bool Placement::mayDisplace(const std::vector<std::uint32_t>& robots,

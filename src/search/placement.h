@@ -67,6 +67,8 @@ class Placement {
     std::uint32_t delayed_one_in = 0;
     /// See EvictionQuery: for who wants a plan within the horizon, and no more.
     bool hasty = false;
+    /// Searches are in a Hurry, the sooner the fewer cells a robot there are.
+    bool hurries = false;
   };
   /// Places who waits until nobody does or the effort is spent. @pre horizon >= every robot's
   /// shortest path around what is reserved.
@@ -83,6 +85,9 @@ class Placement {
     GapAnswer answer;
   };
   void drawBatch(std::uint32_t horizon, const Effort& effort);
+  /// Safe to call for several candidates at once, with a search for each.
+  void search(Candidate& candidate, EvictionSearch& search, std::uint32_t horizon,
+              const Effort& effort, const Deadline& deadline) const;
   void searchBatch(std::uint32_t horizon, const Effort& effort, const Deadline& deadline);
   bool isJammed(PlacementForecast& forecast, std::uint64_t jam_limit) const;
   bool place(Candidate& candidate, std::uint64_t displacements);

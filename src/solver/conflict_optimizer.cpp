@@ -101,6 +101,7 @@ ConflictOptimizerSolver::ConflictOptimizerSolver(const SolverOptions& options)
   const OptionValues values(options.values);
   settings_.patience = values.count("patience", settings_.patience);
   settings_.slack = values.count("slack", settings_.slack);
+  settings_.hurry = values.flag("hurry", settings_.hurry);
 }
 
 SolverInfo ConflictOptimizerSolver::info() {
@@ -115,7 +116,9 @@ SolverInfo ConflictOptimizerSolver::info() {
       {"patience", std::to_string(defaults.patience),
        "placements a robot without progress before a horizon is given up for a longer one"},
       {"slack", std::to_string(defaults.slack),
-       "sum of costs: steps that the first horizon exceeds the greatest shortest path by"}};
+       "sum of costs: steps that the first horizon exceeds the greatest shortest path by"},
+      {"hurry", defaults.hurry ? "true" : "false",
+       "robots do not look long for the path that arrives first: a plan sooner, that costs more"}};
   info.make = [](const SolverOptions& options) {
     return std::make_unique<ConflictOptimizerSolver>(options);
   };
@@ -141,6 +144,7 @@ SolveResult ConflictOptimizerSolver::placeAll(const SolveRequest& request,
   effort.patience =
       std::max<std::uint64_t>(1, settings_.patience * std::max(kFewRobots, instance.robots()));
   effort.expansion_limit = expansion_limit_;
+  effort.hurries = settings_.hurry;
   // Longer than this no robot has to travel on any but pathological graphs.
   const std::uint64_t longest = std::uint64_t{4} * (bound + instance.graph().size());
   // On few cells the first horizon would be longer, and none would be tried.

@@ -81,6 +81,23 @@ TEST(ConflictOptimizer, ThreadsDoNotChangeThePlan) {
   }
 }
 
+TEST(ConflictOptimizer, PlacesThousandsWhereThereIsRoomInAHurry) {
+  const Instance instance =
+      test::generatedInstance(200, 0.1, 4200).boundedTo(std::size_t{64} << 20U);
+  SolverOptions options;
+  options.objective = Objective::kSumOfCosts;
+  options.values["hurry"] = "true";
+  Executor executor(2);
+  SolveRequest request(instance, Deadline());
+  request.threads = executor.lend();
+  const SolveResult result = ConflictOptimizerSolver(options).solve(request);
+  ASSERT_EQ(result.termination, Termination::kSolved);
+  EXPECT_TRUE(validate(instance, *result.plan).empty());
+  const std::uint64_t steps = sumOfCostsLowerBound(instance);
+  EXPECT_LT(sumOfCostsOf(*result.plan), steps + steps / 10);
+  EXPECT_LT(result.low_level_expansions, 6 * steps);
+}
+
 TEST(ConflictOptimizer, ARobotAtHomeOnTheOnlyCellIsNoMatterForFailure) {
   const Instance instance = test::instanceFromAscii({"a"}, {"a"});
   const SolveResult result = solve(instance, Objective::kSumOfCosts);
