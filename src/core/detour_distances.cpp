@@ -86,9 +86,9 @@ std::uint32_t DistanceTable::searchDetours(Vertex v) const {
   const Cell cell = search.guide.grid->cellOf(v);
   const std::size_t worth_completing = graph_->size() / kShareWorthCompleting;
   // Only the first one tells what the map is like.
-  const std::size_t most = search.expanded > 0
-                               ? worth_completing
-                               : kMostOfFirstDetours * search.rowsAndColumns(cell) + kMostBesidesDetours;
+  const std::size_t most =
+      search.expanded > 0 ? worth_completing
+                          : kMostOfFirstDetours * search.rowsAndColumns(cell) + kMostBesidesDetours;
   while (!isKnown(v)) {
     if (search.expanded > worth_completing) {
       complete();
