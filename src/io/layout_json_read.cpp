@@ -21,7 +21,10 @@ class LayoutReader {
   Layout read(const Json& json) const {
     if (!json.is_object()) fail("is no object");
     Layout layout;
-    layout.partition = json.value("partition", "");
+    if (json.contains("partition")) {
+      if (!json["partition"].is_string()) fail("has a 'partition' that is no text");
+      layout.partition = json["partition"].get<std::string>();
+    }
     for (const Json& runs : listIn(json, "ownerships")) {
       layout.ownerships.push_back(readRuns(runs));
     }

@@ -59,6 +59,7 @@ TEST_F(LayoutJsonFile, RefusesALayoutOfAnotherMap) {
   EXPECT_EQ(refusal(with(good, "")), "");
   EXPECT_NE(refusal("3").find("is no object"), std::string::npos);
   EXPECT_NE(refusal("{}").find("'ownerships'"), std::string::npos);
+  EXPECT_NE(refusal(R"({"partition":3})").find("'partition' that is no text"), std::string::npos);
   EXPECT_NE(refusal(with("[[0,5]]", "")).find("blocked cell"), std::string::npos);
   EXPECT_NE(refusal(with("[[0,2]]", "")).find("of 2 cells"), std::string::npos);
   EXPECT_NE(refusal(with("[[0,2],[-1,9]]", "")).find("6 cells"), std::string::npos);
