@@ -40,6 +40,7 @@ class DemandSample {
 
   bool pays() const {
     if (asked_ == 0 || !problem_.grid->hasUnitMoves()) return false;
+    if (problem_.grid->isHuge()) return false;  // its graph may not be there yet, nor be needed
     // In a maze the first distance takes as long as several tables of all: one of these tells.
     if (costOfDetours() > limit_) return false;
     double cost = 0;
