@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 
 namespace split_mapf {
 namespace {
@@ -17,6 +18,10 @@ AllDistances::AllDistances(const Instance& instance, std::uint64_t steps) {
   if (!instance.isBounded()) return;  // they are few
   const std::uint64_t whole = std::uint64_t{2} * instance.robots() * instance.grid().size();
   mebibytes_ = std::min(kBytesAStep * steps, whole) >> 20U;
+}
+
+AllDistances AllDistances::everywhere(const Instance& instance) {
+  return {instance, std::numeric_limits<std::uint64_t>::max() / kBytesAStep};
 }
 
 AllDistances AllDistances::atLeast(const Instance& instance) {

@@ -15,6 +15,8 @@ class AllDistances {
   AllDistances() = default;
   /// @param steps  of all robots' shortest ways together, or less.
   AllDistances(const Instance& instance, std::uint64_t steps);
+  /// Of who also asks beside the ways: they become tables of all.
+  static AllDistances everywhere(const Instance& instance);
   /// What is known of them before any way is: a move crosses one row or column. On a planning graph
   /// that is nothing.
   static AllDistances atLeast(const Instance& instance);

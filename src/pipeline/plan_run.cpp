@@ -58,8 +58,8 @@ PlanReport PlanRun::run() {
     if (!report_.plan) {
       report_.termination = Termination::kMemoryLimit;
       report_.message = "memory ran out in stage " + log_.stage();
-    } else if (report_.message.empty()) {
-      report_.message = "solved; then memory ran out";
+    } else {
+      report_.message += "; then memory ran out in stage " + log_.stage();
     }
   }
   if (!report_.plan) {

@@ -96,7 +96,7 @@ class PlanRun {
   std::optional<SolvabilityChecker> checker_;  ///< from stage "check" on
   const SolverRegistry& solvers_;
   const SolverTable traits_;
-  StepTable step_table_;           ///< from the lower bounds on
+  StepTable step_table_;           ///< known by rows and columns first, then by lower bounds
   AllDistances all_distances_;     ///< likewise
   const std::string last_resort_;  ///< a solver; empty: there is none
   PieceSolver piece_solver_;

@@ -20,6 +20,7 @@ namespace {
 // An option of whoever can guide a crowd again on its way, and what it is told [steps].
 constexpr const char* kGuideAgain = "guide_again";
 constexpr const char* kGuideInterval = "30";
+constexpr double kGuideAgainFactor = 1.5;
 
 }  // namespace
 
@@ -63,7 +64,9 @@ void PlanRun::guideCrowdAgain(const Deadline& end) {
   const bool wanted = report_.solver == "auto" && !report_.optimal && !splits() &&
                       instance_.robots() >= kCrowd && ruleOf(report_.objective).sums() &&
                       traits_.at(request_.solver).loose_plans;
-  if (!wanted) return;
+  if (!wanted || step_table_.isTooLargeForEachThread()) return;
+  // It takes longer than the first plan did: what is too short for it is left to refinement.
+  if (end.remainingSec() < kGuideAgainFactor * report_.first_plan_sec) return;
   SolverOptions options;
   options.objective = report_.objective;
   options.seed = report_.seed;

@@ -54,7 +54,7 @@ bool PlanRun::refuseStepTables() {
   report_.termination = Termination::kMemoryLimit;
   report_.message = step_table_.describe(" of " + request_.solver) + ", at most " +
                     StepTable::mostPossible() + " are possible";
-  if (!last_resort_.empty()) {
+  if (!last_resort_.empty() && !all_distances_.areTooLarge()) {
     report_.message += "; solver " + last_resort_ + " keeps none";
     if (request_.solver == last_resort_) report_.message += " without options of its own";
   }

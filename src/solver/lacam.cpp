@@ -63,7 +63,9 @@ std::optional<SolveResult> refuse(const Instance& instance, const LacamSettings&
     if (deadline.expired()) return interrupted(deadline);
     if (instance.shortestLength(robot) == DistanceTable::kUnreachable) return cutOffResult(robot);
   }
-  const AllDistances distances(instance, sumOfCostsLowerBound(instance));
+  const AllDistances distances = settings.guide_again > 0
+                                     ? AllDistances::everywhere(instance)
+                                     : AllDistances(instance, sumOfCostsLowerBound(instance));
   if (distances.areTooLarge()) return refused(Termination::kMemoryLimit, distances.describe(kName));
   if (!settings.check) return std::nullopt;
   const SolvabilityVerdict verdict = checkSolvable(instance, deadline);

@@ -67,7 +67,7 @@ TEST(Crowd, SawItsFirstPlanOnlyOnceItWasPolished) {
 
 /// Everybody has one step to go, and the solver makes three of it unless it is told to take longer.
 PlanReport planOfStrollers(std::uint32_t robots, Objective objective, bool loose_plans = true,
-                           bool gains = true, double refine_sec = 0.1) {
+                           bool gains = true, double refine_sec = 100) {
   const auto walk = [](bool straight) {
     return [straight](const Instance& instance, const Deadline&) {
       SolveResult result;
@@ -125,6 +125,8 @@ TEST(Crowd, IsGuidedAgainOnlyWhereThatMayPay) {
   EXPECT_FALSE(is_guided(planOfStrollers(4100, Objective::kMakespan)));
   EXPECT_FALSE(is_guided(planOfStrollers(4100, Objective::kSumOfCosts, false)));
   EXPECT_FALSE(is_guided(planOfStrollers(4100, Objective::kSumOfCosts, true, false)));
+  EXPECT_FALSE(is_guided(planOfStrollers(4100, Objective::kSumOfCosts, true, true, 1e-4)))
+      << "it takes longer than the first plan did";
   EXPECT_EQ(planOfStrollers(4100, Objective::kSumOfCosts, true, true, 0).trace.size(), 1U)
       << "the first plan was wanted";
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <numeric>
 #include <string>
 
 #include "solver/lacam/home_passes.h"
@@ -71,6 +72,16 @@ TEST(Traffic, CountsWhoComesWhenAndFromWhere) {
   EXPECT_EQ(traffic.onto(2, 1000), 0U);
   traffic.remove({0, 1, 2, 3});
   EXPECT_EQ(traffic.onto(2, 3), 0U);
+  // However long the way: what comes later counts in the last span.
+  const std::string far(8000, '.');
+  const Instance long_lane = instanceFromAscii({"a" + far}, {far + "a"});
+  Traffic late(long_lane);
+  Path guide(8001);
+  std::iota(guide.begin(), guide.end(), 0U);
+  late.insert(guide);
+  EXPECT_EQ(late.onto(7000, 8400), 1U);
+  EXPECT_EQ(late.onto(3000, 3600), 1U);
+  EXPECT_EQ(late.onto(3000, 8400), 1U) << "they are one span";
 }
 
 /// Robot 0 goes from the left to the right; the home of robot 1 is in its row, four steps longer is
@@ -112,7 +123,7 @@ TEST_F(PricedSearchTest, KnowsWaysFromBesideTheGuide) {
   EXPECT_EQ(stepsAt(0), 9U);
   PricedWays ways;
   EXPECT_EQ(ways(0), PricedWays::kUnknown);
-  search_.moveWaysTo(ways);
+  search_.copyWaysTo(ways);
   EXPECT_EQ(ways(instance_.goal(0)), 0U);
   EXPECT_EQ(ways(instance_.start(0)), 9 * PricedSearch::kStep);
   EXPECT_EQ(ways(10), 10 * PricedSearch::kStep) << "below the start";
@@ -150,6 +161,10 @@ TEST(GuideAgain, ThePlanIsTheSameOnAnyNumberOfThreads) {
   ASSERT_TRUE(alone.plan && together.plan);
   EXPECT_EQ(together.plan->paths, alone.plan->paths);
   EXPECT_EQ(together.low_level_expansions, alone.low_level_expansions);
+  // Distances on demand, each robot's read by one thread at a time.
+  const Instance bounded = crowdedWarehouse(3).boundedTo(1);
+  ASSERT_TRUE(bounded.isBounded());
+  EXPECT_EQ(solve(bounded, values, 0, executor.lend(3)).plan->paths, alone.plan->paths);
   const SolveResult seldom = solve(instance, {{"polish", "0"}, {"guide_again", "60"}});
   EXPECT_NE(seldom.plan->paths, alone.plan->paths) << "the interval is ignored";
 }
@@ -158,6 +173,7 @@ TEST(GuideAgain, GivesUpAtTheExpansionLimit) {
   const SolveResult result = solve(crowdedWarehouse(1), {{"guide_again", "20"}}, 5000);
   EXPECT_EQ(result.termination, Termination::kNoPlanFound);
   EXPECT_NE(result.message.find("5000 expansions"), std::string::npos) << result.message;
+  EXPECT_LT(result.low_level_expansions, 7000U) << "it is looked at in each batch of guides";
 }
 
 }  // namespace

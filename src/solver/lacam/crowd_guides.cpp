@@ -38,7 +38,7 @@ CrowdGuides::CrowdGuides(const Instance& instance, const RobotDistances& distanc
                 {PricedSearch(instance, distances, passes_, traffic_, options.margin)}),
       searched_(kBatch) {}
 
-bool CrowdGuides::renew(const Deadline& deadline) {
+bool CrowdGuides::renew(const Deadline& deadline, std::uint64_t most) {
   keepRestOfGuides();
   std::vector<std::uint32_t> order;
   for (std::uint32_t i = 0; i < instance_.robots(); ++i) {
@@ -47,7 +47,7 @@ bool CrowdGuides::renew(const Deadline& deadline) {
   for (std::uint64_t rounds = std::exchange(rounds_, 1); rounds > 0; --rounds) {
     shuffle(order, engine_);
     for (std::size_t first = 0; first < order.size(); first += kBatch) {
-      if (deadline.expired()) return false;
+      if (deadline.expired() || (most > 0 && expansions_ > most)) return false;
       const std::size_t count = std::min<std::size_t>(kBatch, order.size() - first);
       chooseBatch(order.data() + first, static_cast<std::uint32_t>(count));
     }
@@ -61,7 +61,7 @@ void CrowdGuides::keepRestOfGuides() {
   for (std::uint32_t i = 0; i < instance_.robots(); ++i) {
     Path& guide = guides_[i];
     guide.erase(guide.begin(), std::find(guide.begin(), guide.end(), state_.at[i]));
-    if (!state_.isAway(i)) guide.clear();
+    if (!state_.isAway(i)) forget(i);
     const std::uint32_t soonest = state_.step + Traffic::delayed(distances_(i, state_.at[i]));
     passes_.setArrival(i, state_.isAway(i) ? soonest : state_.home_since[i]);
     putIn(i);
@@ -74,7 +74,7 @@ void CrowdGuides::chooseBatch(const std::uint32_t* robots, std::uint32_t count) 
     const std::uint32_t robot = robots[k];
     PricedSearch& search = searches_[member].value;
     search.find(robot, state_.at[robot], state_.step);
-    search.moveWaysTo(ways_[robot]);
+    search.copyWaysTo(ways_[robot]);
     guides_[robot] = search.guide();
     searched_[k] = search.expansions();
   });

@@ -36,8 +36,10 @@ class CrowdGuides : public StepPrices {
 
   /// Finds ways for all who are away now, one batch after another, with what the others have; at
   /// first what is left of their guides, where they are still on them.
-  /// @return false when the deadline came first. Cost: a PricedSearch a robot and round.
-  bool renew(const Deadline& deadline);
+  /// @param most  expansions in all, 0: any number.
+  /// @return false when the deadline or the limit came first. Cost: a PricedSearch a robot and
+  /// round.
+  bool renew(const Deadline& deadline, std::uint64_t most);
   /// Forgets the ways of a robot that is pushed from home: they began elsewhere.
   void forget(std::uint32_t robot) {
     ways_[robot].clear();

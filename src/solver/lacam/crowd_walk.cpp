@@ -53,14 +53,22 @@ bool CrowdWalk::goesOn() const {
   return std::uint64_t{away_} * kLeftOneIn > instance_.robots() && state_.step < longest_;
 }
 
+bool CrowdWalk::isSpent() const {
+  return options_.expansion_limit > 0 && expansions() > options_.expansion_limit;
+}
+
+/// @pre !isSpent().
+std::uint64_t CrowdWalk::guidesMay() const {
+  return options_.expansion_limit > 0 ? options_.expansion_limit - pibt_.expansions() : 0;
+}
+
 CrowdWalk::Outcome CrowdWalk::run() {
   Configuration next(instance_.robots());
   while (goesOn()) {
     if (deadline_.expired()) return Outcome::kInterrupted;
-    const std::uint64_t limit = options_.expansion_limit;
-    if (limit > 0 && expansions() > limit) return Outcome::kSpent;
-    if (state_.step % options_.interval == 0 && !guides_.renew(deadline_)) {
-      return Outcome::kInterrupted;
+    if (isSpent()) return Outcome::kSpent;
+    if (state_.step % options_.interval == 0 && !guides_.renew(deadline_, guidesMay())) {
+      return deadline_.expired() ? Outcome::kInterrupted : Outcome::kSpent;
     }
     next.assign(next.size(), kNoVertex);
     if (!pibt_.complete(state_.at, order_, next)) break;
@@ -78,6 +86,7 @@ void CrowdWalk::take(const Configuration& next) {
     std::uint32_t& waited = state_.waited[i];
     if (next[i] == instance_.goal(i)) {
       if (state_.isAway(i)) state_.home_since[i] = state_.step;
+      waited = 0;
       continue;
     }
     ++away_;

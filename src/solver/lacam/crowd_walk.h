@@ -40,6 +40,8 @@ class CrowdWalk {
 
  private:
   bool goesOn() const;
+  bool isSpent() const;
+  std::uint64_t guidesMay() const;
   void take(const Configuration& next);
   void orderRobots();
 

@@ -30,7 +30,8 @@ class HomePasses {
     if (owner == kNobody || owner == robot || step < arrivals_[owner]) return 0;
     return lossAfter(arrivals_[owner], latestBut(v, robot), step);
   }
-  /// The same for whoever pushes the owner, which is there since `since`.
+  /// What the owner, which is there since `since`, loses to whoever pushes it now; the pusher's own
+  /// passes count, too.
   std::uint32_t lossNow(Vertex v, std::uint32_t since, std::uint32_t step) const {
     return lossAfter(since, latest_[v].first, step);
   }

@@ -51,8 +51,8 @@ class PricedSearch {
   /// @param now  the step at which the robot is at `at`.
   void find(std::uint32_t robot, Vertex at, std::uint32_t now);
   const Path& guide() const { return guide_; }
-  /// Gives away what the last search has found.
-  void moveWaysTo(PricedWays& ways) const { ways.take(values_, known_); }
+  /// What the last search has found.
+  void copyWaysTo(PricedWays& ways) const { ways.take(values_, known_); }
   std::uint64_t expansions() const { return expansions_; }
 
  private:

@@ -11,7 +11,7 @@ class StepPrices {
  public:
   virtual ~StepPrices() = default;
   /// @param occupant  who stands there now, kNoRobot if nobody does; it may be the robot itself.
-  /// @return in units of its own, below 2^20.
+  /// @return in units of its own.
   virtual std::uint32_t priceOf(std::uint32_t robot, Vertex v, std::uint32_t occupant) const = 0;
 };
 

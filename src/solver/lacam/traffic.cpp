@@ -4,10 +4,18 @@
 
 namespace split_mapf {
 
+namespace {
+
+// On maps of long ways more would take more memory than tables of steps.
+constexpr std::size_t kMostSpans = 96;
+
+}  // namespace
+
 // Guides are a little longer than shortest ways; what comes after the last span counts in it.
 Traffic::Traffic(const Instance& instance)
     : graph_(instance.graph()),
-      spans_(delayed(makespanLowerBound(instance)) * 5 / 4 / kSpan + 2),
+      spans_(std::min<std::size_t>(
+          kMostSpans, std::size_t{delayed(makespanLowerBound(instance))} * 5 / 4 / kSpan + 2)),
       counts_(kDirections * spans_ * instance.graph().size()) {}
 
 void Traffic::clear() { std::fill(counts_.begin(), counts_.end(), std::uint16_t{0}); }

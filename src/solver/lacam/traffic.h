@@ -10,7 +10,8 @@
 namespace split_mapf {
 
 /// How many guide paths lead over each vertex, by the neighbour that they come from, in each span
-/// of steps from now on. Memory: eight bytes a vertex and span. Not thread-safe while it changes.
+/// of steps from now on. Memory: eight bytes a vertex and span, of which there are 96 at most. Not
+/// thread-safe while it changes.
 class Traffic {
  public:
   /// In a crowd everybody is held up, by so much on average: step k of a path takes until this.
