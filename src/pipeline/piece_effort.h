@@ -9,8 +9,8 @@ namespace split_mapf {
 /// threads busy. Asks for no distances.
 double expectedEffort(const Instance& piece);
 
-/// Seconds that a piece is expected to take, to a factor of about five either way: whether it is
-/// worth a journey. Asks for no distances.
+/// Seconds that a piece is expected to take, roughly: most take a tenth of it, some several times
+/// as long. Whether it is worth a journey. Asks for no distances.
 double expectedSec(const Instance& piece, const SolverTraits& solver);
 
 }  // namespace split_mapf

@@ -70,6 +70,7 @@ class RestRun {
     rest = improve(instance, std::move(rest), seed);
     requireValid(instance, rest);
     answer_.expansions = work_.expansions;
+    answer_.states = spent();
     judge(concatenate(graph_, cut_, rest));
     return std::move(answer_);
   }

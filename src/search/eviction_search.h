@@ -23,7 +23,8 @@ struct EvictionQuery : GapQuery {
 };
 
 /// Finds the path that runs into placed robots of the least total weight and, among such paths, the
-/// one that arrives first, or in haste one that is found soon (weighted A*, Pohl 1970).
+/// one that arrives first, or in haste one that is found soon (weighted A*, Pohl 1970). In a hurry
+/// that ends neither is sure: it is one that was found soon.
 /// Most paths evict nobody, so a GapSearch asks for these first. Only when there are none do the
 /// visits count: who could be evicted from what the GapSearch reached is where this search begins.
 /// A state is a vertex and a step and stands for the rest of the gap or visit around it; as weights

@@ -17,8 +17,8 @@
 
 namespace split_mapf {
 
-/// When a search stops looking for the path that arrives first, in expansions, and when it stops
-/// altogether. Never, unless said otherwise.
+/// When a search stops looking for the path that arrives first, in expansions, and when it gives
+/// up. Never, unless said otherwise.
 struct Hurry {
   static constexpr std::uint64_t kNever = ~std::uint64_t{0};
 
@@ -26,7 +26,8 @@ struct Hurry {
   /// delay as much as `steps_a_delay` steps of it (weighted A*, Pohl 1970).
   std::uint64_t begin = kNever;
   std::uint32_t steps_a_delay = 8;
-  /// After so many there is no answer, which does not mean that there is no path.
+  /// After so many a GapSearch has no answer, which does not mean that there is no path, and an
+  /// EvictionSearch goes on to the next weight; `hasty` is of no effect then.
   std::uint64_t end = kNever;
 };
 

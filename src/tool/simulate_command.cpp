@@ -49,7 +49,7 @@ void declareOptions(CommandLine& line) {
   line.offer("replan-period", "STEPS",
              "between replans (" + std::to_string(defaults.replan_period) + ")");
   line.offer("replan-expansions", "N",
-             "effort of a replan in expanded states (" +
+             "effort of a replan, in states that an ordinary search expands in the time (" +
                  std::to_string(ReplanBudget::kDefaultExpansions) + " a robot, at least " +
                  std::to_string(ReplanBudget::kLeastExpansions) + ")");
   line.offer("rings", "NAME",

@@ -12,7 +12,7 @@
 
 namespace split_mapf {
 
-/// How much a replan may cost. Counted in expansions, so that runs can be repeated.
+/// How much a replan may cost. Counted in work, so that runs can be repeated.
 struct ReplanBudget {
   /// States of all searches. All that is done counts as so many of them as take as long: a search
   /// that looks at more neighbours and reaches more places for each state, that may evict, paths
@@ -43,7 +43,8 @@ struct ReplanAnswer {
   std::uint64_t cost_before = 0;            ///< forecast sum of arrivals [ticks from now]
   std::uint64_t cost_after = 0;             ///< the same with what was found
   std::uint32_t rings = 0;                  ///< of the execution to go on with
-  std::uint64_t expansions = 0;
+  std::uint64_t expansions = 0;             ///< of all searches
+  std::uint64_t states = 0;                 ///< of the budget, that all that was done took
 };
 
 /// Plans the rest of an execution anew while it goes on. What robots are promised stays: the events
