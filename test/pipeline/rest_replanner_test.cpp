@@ -176,7 +176,7 @@ TEST(RestReplanner, PaysForWhatItDoesBesideSearching) {
   const RotatingCrowd crowd(2);
   const Precedence order(crowd.plan, crowd.grid->size());
   // Two and a half states a visit are half of it, and an expansion takes two states here.
-  const std::uint64_t budget = 5 * order.size();
+  const std::uint64_t budget = std::uint64_t{5} * order.size();
   const ReplanAnswer answer = crowd.replan(budget);
   EXPECT_GT(answer.expansions, 0U);
   EXPECT_LT(answer.expansions, budget / 3);
