@@ -1,7 +1,6 @@
 #include "core/all_distances.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <limits>
 
 namespace split_mapf {
@@ -31,7 +30,7 @@ AllDistances AllDistances::atLeast(const Instance& instance) {
   for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {
     const Cell start = grid.cellOf(instance.start(robot));
     const Cell goal = grid.cellOf(instance.goal(robot));
-    steps += static_cast<std::uint64_t>(std::abs(start.x - goal.x) + std::abs(start.y - goal.y));
+    steps += rowsAndColumns(start, goal);
   }
   return {instance, steps};
 }

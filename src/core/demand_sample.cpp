@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 
 #include "core/detour_search.h"
 #include "split_mapf/core/distance_table.h"
@@ -20,10 +19,6 @@ constexpr std::uint32_t kOneIn = 25;
 constexpr double kVain = 14;
 constexpr double kShareThatPays = 0.4;
 constexpr double kBytesAVertex = 2;
-
-std::uint32_t rowsAndColumns(Cell a, Cell b) {
-  return static_cast<std::uint32_t>(std::abs(a.x - b.x) + std::abs(a.y - b.y));
-}
 
 /// What ways with few steps away from the goal cost in vain, at most: nothing where none is needed.
 double costInVain(std::uint32_t length, std::uint32_t apart) {

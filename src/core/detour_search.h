@@ -41,9 +41,7 @@ struct DistanceTable::DetourSearch {
     std::uint32_t tried;
   };
 
-  std::uint32_t rowsAndColumns(Cell c) const {
-    return static_cast<std::uint32_t>(std::abs(goal.x - c.x) + std::abs(goal.y - c.y));
-  }
+  std::uint32_t rowsAndColumns(Cell c) const { return split_mapf::rowsAndColumns(goal, c); }
   /// Where a cell lies from the goal: a quarter, or straight between two of them.
   std::size_t sectorOf(Cell c) const {
     const auto side = [](std::int32_t from_goal) {

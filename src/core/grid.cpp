@@ -104,11 +104,7 @@ Grid::Grid(std::uint32_t width, std::uint32_t height, std::vector<std::uint32_t>
   numbering_ = CellNumbering(marked);
   graph_ = Graph(size(), edges);
   for (const auto& [a, b] : edges) {
-    const Cell from = cellOf(a);
-    const Cell to = cellOf(b);
-    const auto crossed =
-        static_cast<std::uint32_t>(std::abs(from.x - to.x) + std::abs(from.y - to.y));
-    longest_move_ = std::max(longest_move_, crossed);
+    longest_move_ = std::max(longest_move_, rowsAndColumns(cellOf(a), cellOf(b)));
   }
 }
 

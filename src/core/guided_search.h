@@ -29,9 +29,7 @@ struct DistanceTable::GuidedSearch {
     return static_cast<std::uint32_t>(std::abs(int{known[v]} - int{known[guide.from]}));
   }
   std::uint32_t byCells(Vertex v) const {
-    const Cell cell = guide.grid->cellOf(v);
-    const auto apart =
-        static_cast<std::uint32_t>(std::abs(cell.x - at.x) + std::abs(cell.y - at.y));
+    const std::uint32_t apart = rowsAndColumns(guide.grid->cellOf(v), at);
     return longest_move == 1 ? apart : apart / longest_move;
   }
   /// A lower bound of the steps from `from`.

@@ -1,7 +1,6 @@
 #include "pipeline/piece_effort.h"
 
 #include <cstdint>
-#include <cstdlib>
 
 namespace split_mapf {
 namespace {
@@ -20,7 +19,7 @@ double expectedEffort(const Instance& piece) {
   for (std::uint32_t i = 0; i < piece.robots(); ++i) {
     const Cell from = piece.grid().cellOf(piece.start(i));
     const Cell to = piece.grid().cellOf(piece.goal(i));
-    steps += std::abs(from.x - to.x) + std::abs(from.y - to.y);
+    steps += rowsAndColumns(from, to);
   }
   return steps;
 }

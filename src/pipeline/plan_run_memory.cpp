@@ -1,6 +1,5 @@
 // What a PlanRun refuses, as no memory holds it.
 #include <algorithm>
-#include <cstdlib>
 
 #include "pipeline/plan_run.h"
 #include "portfolio/solver_choice.h"
@@ -12,13 +11,13 @@ namespace {
 std::uint32_t longestByCells(const Instance& instance) {
   const Grid& grid = instance.grid();
   if (!grid.hasUnitMoves()) return 0;
-  std::int32_t longest = 0;
+  std::uint32_t longest = 0;
   for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {
     const Cell start = grid.cellOf(instance.start(robot));
     const Cell goal = grid.cellOf(instance.goal(robot));
-    longest = std::max(longest, std::abs(start.x - goal.x) + std::abs(start.y - goal.y));
+    longest = std::max(longest, rowsAndColumns(start, goal));
   }
-  return static_cast<std::uint32_t>(longest);
+  return longest;
 }
 
 }  // namespace

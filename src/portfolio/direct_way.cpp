@@ -1,16 +1,8 @@
 #include "portfolio/direct_way.h"
 
-#include <cstdlib>
 #include <vector>
 
 namespace split_mapf {
-namespace {
-
-std::uint32_t rowsAndColumns(Cell a, Cell b) {
-  return static_cast<std::uint32_t>(std::abs(a.x - b.x) + std::abs(a.y - b.y));
-}
-
-}  // namespace
 
 Path directWay(const Grid& grid, Vertex start, Vertex goal, std::uint32_t length) {
   const Cell end = grid.cellOf(goal);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <vector>
 
 #include "search/bucket_queue.h"
@@ -42,16 +41,11 @@ class WayLeft {
   }
   std::uint32_t operator()(Vertex v) const {
     // First: what a table happens to know must not change the plan.
-    if (grid_ != nullptr) return rowsAndColumns(v);
+    if (grid_ != nullptr) return rowsAndColumns(grid_->cellOf(v), goal_);
     return narrow_ != nullptr ? narrow_[v] : (*distances_)(v);
   }
 
  private:
-  std::uint32_t rowsAndColumns(Vertex v) const {
-    const Cell cell = grid_->cellOf(v);
-    return static_cast<std::uint32_t>(std::abs(cell.x - goal_.x) + std::abs(cell.y - goal_.y));
-  }
-
   const DistanceTable* distances_ = nullptr;
   const std::uint16_t* narrow_ = nullptr;  // the distances, where they have this form
   const Grid* grid_ = nullptr;             // null: the table is read

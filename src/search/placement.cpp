@@ -1,7 +1,6 @@
 #include "search/placement.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <utility>
 
 namespace split_mapf {
@@ -29,9 +28,7 @@ bool goesStraight(const Instance& instance, std::uint32_t robot) {
   if (!grid.hasUnitMoves()) return false;
   const Cell start = grid.cellOf(instance.start(robot));
   const Cell goal = grid.cellOf(instance.goal(robot));
-  const auto straight =
-      static_cast<std::uint32_t>(std::abs(start.x - goal.x) + std::abs(start.y - goal.y));
-  return instance.shortestLength(robot) <= straight + kMostDetour;
+  return instance.shortestLength(robot) <= rowsAndColumns(start, goal) + kMostDetour;
 }
 
 Hurry hurryOf(const Instance& instance, std::uint32_t length) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <string>
 #include <utility>
@@ -22,6 +23,11 @@ struct Cell {
 
 /// "(x,y)", as every message names a cell.
 std::string toString(Cell cell);
+
+/// How many rows and columns lie between two cells: no way of unit moves has fewer steps.
+inline std::uint32_t rowsAndColumns(Cell a, Cell b) {
+  return static_cast<std::uint32_t>(std::abs(a.x - b.x) + std::abs(a.y - b.y));
+}
 
 /// A 4-connected grid: its free cells, packed in row-major order, are the vertices of graph(). Or a
 /// planning graph on a map: some of its cells are the vertices, and edges lead from one to another

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <utility>
 
 #include "ros/convert/map_hash.h"
@@ -49,13 +48,12 @@ void requireDistinctPaths(const std::vector<std::string>& ids) {
 
 /// Cells of each robot's path at least: the straight ways.
 std::vector<std::uint32_t> leastPoints(const Instance& instance) {
-  const auto longest = static_cast<int>(instance.grid().longestMove());
+  const std::uint32_t longest = instance.grid().longestMove();
   std::vector<std::uint32_t> points;
   for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) {
     const Cell from = instance.grid().cellOf(instance.start(robot));
     const Cell to = instance.grid().cellOf(instance.goal(robot));
-    const int apart = std::abs(from.x - to.x) + std::abs(from.y - to.y);
-    points.push_back(static_cast<std::uint32_t>((apart + longest - 1) / longest) + 1);
+    points.push_back((rowsAndColumns(from, to) + longest - 1) / longest + 1);
   }
   return points;
 }

@@ -1,7 +1,6 @@
 #include "solver/lacam/priced_ways.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace split_mapf {
 namespace {
@@ -48,9 +47,7 @@ PricedSearch::PricedSearch(const Instance& instance, const RobotDistances& dista
 /// Steps from the robot, at least.
 std::uint32_t PricedSearch::estimate(Vertex v) const {
   if (!is_grid_) return 0;
-  const Cell a = instance_.grid().cellOf(v);
-  const Cell b = instance_.grid().cellOf(at_);
-  return static_cast<std::uint32_t>(std::abs(a.x - b.x) + std::abs(a.y - b.y));
+  return rowsAndColumns(instance_.grid().cellOf(v), instance_.grid().cellOf(at_));
 }
 
 void PricedSearch::reset() {
