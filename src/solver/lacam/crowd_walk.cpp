@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "search/robot_order.h"
+#include "solver/lacam/turn_order.h"
 
 namespace split_mapf {
 namespace {
@@ -100,18 +101,7 @@ void CrowdWalk::take(const Configuration& next) {
       waited -= waited > 1 ? 2 : 1;
     }
   }
-  orderRobots();
-}
-
-void CrowdWalk::orderRobots() {
-  // Whoever has been away from home longest goes first, those at home last.
-  next_order_.clear();
-  for (const std::uint32_t i : order_) {
-    if (state_.isAway(i)) next_order_.push_back(i);
-  }
-  for (const std::uint32_t i : ranks_) {
-    if (!state_.isAway(i)) next_order_.push_back(i);
-  }
+  orderTurns(state_.at, instance_.goals(), order_, ranks_, next_order_);
   order_.swap(next_order_);
 }
 

@@ -43,7 +43,6 @@ class CrowdWalk {
   bool isSpent() const;
   std::uint64_t guidesMay() const;
   void take(const Configuration& next);
-  void orderRobots();
 
   const Instance& instance_;
   const CrowdWalkOptions options_;

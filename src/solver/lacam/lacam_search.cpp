@@ -5,6 +5,7 @@
 #include "search/crowd.h"
 #include "search/robot_order.h"
 #include "solver/lacam/shortest_sequence.h"
+#include "solver/lacam/turn_order.h"
 
 namespace split_mapf {
 namespace {
@@ -116,23 +117,12 @@ std::uint32_t LacamSearch::reach() {
     return *known;
   }
   const std::uint32_t added = explored_.add(next_, hash);
-  orderNext();
+  orderTurns(next_, instance_.goals(), order_, ranks_, next_order_);
   orders_.append(next_order_);
   nodes_.emplace_back();
   nodes_[added].parent = loaded_;
   pushFront(added);
   return added;
-}
-
-void LacamSearch::orderNext() {
-  // Whoever has been away from home longest goes first, those at home last.
-  next_order_.clear();
-  for (const std::uint32_t i : order_) {
-    if (next_[i] != instance_.goal(i)) next_order_.push_back(i);
-  }
-  for (const std::uint32_t i : ranks_) {
-    if (next_[i] == instance_.goal(i)) next_order_.push_back(i);
-  }
 }
 
 bool LacamSearch::atGoals(const Configuration& configuration) const {

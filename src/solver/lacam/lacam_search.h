@@ -60,7 +60,6 @@ class LacamSearch {
   bool isSpent() const;
   bool isFull();
   std::uint32_t reach();
-  void orderNext();
   bool atGoals(const Configuration& configuration) const;
   void unlink(std::uint32_t node);
   void pushFront(std::uint32_t node);
