@@ -30,6 +30,7 @@ constexpr double kLimitSec = 5;
 template <class Goal>
 Goal read(std::vector<std::uint8_t> bytes) {
   Goal goal;
+  bytes.reserve(1);  // roscpp never reads from nowhere, and adds to the address
   ros::serialization::IStream in(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
   ros::serialization::deserialize(in, goal);
   return goal;
