@@ -41,6 +41,8 @@ std::optional<FleetQuestion> FleetExecution::ask(double now) {
   const bool anew = stalled && questions_ > 0;
   FleetQuestion question = makeQuestion(anew);
   if (anew) ++stalls_;
+  question.asked_sec = now;
+  question.step_sec = options_.step_sec;
   return question;
 }
 

@@ -48,6 +48,8 @@ class FleetRun {
     rest.commit = 0;
     rest.avoid_rings = question_.avoid_rings;
     rest.promised = question_.cut;
+    const double steps = std::max(0.0, question_.asked_sec) / question_.step_sec;
+    rest.asked = static_cast<std::uint64_t>(steps * question_.times.move);
     ReplanAnswer found = answer_.ground->replanner.replan(rest, deadline_);
     answer_.rings = found.rings;
     answer_.execution = std::move(found.execution);

@@ -165,6 +165,7 @@ class SimulationRun {
     question.came_from = robots_.cameFrom();
     question.commit = times_.move;
     question.avoid_rings = options_.avoid_rings;
+    question.asked = std::uint64_t{step_} * times_.move;
     ReplanAnswer answer = replanner_->replan(question, deadline_);
     const double took_ms = threadCpuMs() - begin_ms;
     ++report_.replans;

@@ -44,16 +44,19 @@ bool isOfLanes(const Graph& graph) {
 class RestRun {
  public:
   RestRun(const Instance& whole, bool is_of_lanes, const MotionTimes& times,
-          const ReplanQuestion& question, const Deadline& deadline)
+          const ReplanQuestion& question, const std::vector<std::uint64_t>& expected,
+          const Deadline& deadline)
       : whole_(whole),
         is_of_lanes_(is_of_lanes),
         times_(times),
         question_(question),
+        expected_(expected),
         graph_(*question.graph),
         deadline_(deadline),
         now_(forecastOf(graph_)),
         cut_(promised()),
-        departures_(departuresBehindCut()) {
+        departures_(departuresBehindCut()),
+        arrivals_(arrivalsOf(graph_, now_)) {
     answer_.cost_before = sumOfArrivals(graph_.precedence(), now_);
   }
 
@@ -74,6 +77,9 @@ class RestRun {
     judge(concatenate(graph_, cut_, rest));
     return std::move(answer_);
   }
+
+  /// By robot, of the execution to go on with [ticks from now].
+  const std::vector<std::uint32_t>& arrivals() const { return arrivals_; }
 
  private:
   bool breaksRings() const { return question_.avoid_rings && graph_.release() > 0; }
@@ -113,6 +119,30 @@ class RestRun {
                     question_.stands);
   }
 
+  static std::vector<std::uint32_t> arrivalsOf(const ExecutionGraph& graph,
+                                               const Forecast& forecast) {
+    std::vector<std::uint32_t> arrivals;
+    for (std::uint32_t robot = 0; robot < graph.precedence().robots(); ++robot) {
+      arrivals.push_back(forecast.ends[graph.precedence().last(robot)]);
+    }
+    return arrivals;
+  }
+
+  /// In the steps of the rest, as which robots arrive when it is forecast.
+  std::vector<std::uint32_t> expectedArrivals(const Plan& rest) const {
+    std::vector<std::uint32_t> expected;
+    if (expected_.empty()) return expected;
+    for (std::uint32_t robot = 0; robot < rest.paths.size(); ++robot) {
+      const std::uint64_t now = question_.asked + arrivals_[robot];
+      const std::uint64_t late = now - std::min(now, expected_[robot]);
+      const std::uint64_t late_steps = (late + times_.move - 1) / times_.move;
+      const auto arrival = static_cast<std::uint32_t>(rest.paths[robot].size() - 1);
+      expected.push_back(arrival -
+                         static_cast<std::uint32_t>(std::min<std::uint64_t>(arrival, late_steps)));
+    }
+    return expected;
+  }
+
   /// The steps behind the cut at which robots are done with what lies before it, and with standing.
   std::vector<std::uint32_t> departuresBehindCut() const {
     const std::uint32_t robots = graph_.precedence().robots();
@@ -140,6 +170,7 @@ class RestRun {
 
   Plan improve(const Instance& instance, Plan rest, std::uint64_t seed) {
     const Departures departures(departures_);
+    std::vector<std::uint32_t> expected = expectedArrivals(rest);
     ReplanEffort effort;
     effort.passes = kPasses;
     effort.departures = departures;
@@ -159,6 +190,7 @@ class RestRun {
     const SearchWork before = work_;
     NeighbourhoodSearch search(instance, std::move(table), std::move(rest), kForever - 1, seed,
                                departures);
+    search.expect(std::move(expected));
     const auto makes_no_ring = [&](const std::vector<PathChange>& changes) {
       if (!avoids_rings) return true;
       return std::none_of(changes.begin(), changes.end(), [&](const PathChange& change) {
@@ -220,12 +252,14 @@ class RestRun {
   /// Takes an execution if it is cheaper by what is known. Where rings are to be avoided one that
   /// has fewer is the better one, as a ring may stop robots for good.
   void judge(ExecutionGraph joined) {
-    const std::uint64_t cost = sumOfArrivals(joined.precedence(), forecastOf(joined));
+    const Forecast ahead = forecastOf(joined);
+    const std::uint64_t cost = sumOfArrivals(joined.precedence(), ahead);
     const auto rings = static_cast<std::uint32_t>(joined.rings().size());
     const std::uint32_t rings_before = breaksRings() ? ringsAhead() : 0;
     const std::uint32_t rings_after = breaksRings() ? rings : 0;
     if (rings_after > rings_before) return;
     if (rings_after == rings_before && cost >= answer_.cost_before) return;
+    arrivals_ = arrivalsOf(joined, ahead);
     answer_.cost_after = cost;
     answer_.rings = rings;
     answer_.execution.emplace(std::move(joined));
@@ -244,12 +278,14 @@ class RestRun {
   const bool is_of_lanes_;
   const MotionTimes& times_;
   const ReplanQuestion& question_;
+  const std::vector<std::uint64_t>& expected_;  // empty: nothing is
   const ExecutionGraph& graph_;
   const Deadline& deadline_;
   ReplanAnswer answer_;
   Forecast now_;
   Cut cut_;
   std::vector<std::uint32_t> departures_;  // [steps] behind the cut
+  std::vector<std::uint32_t> arrivals_;    // [ticks] from now
   std::uint64_t budget_ = 0;               // [states]
   SearchWork work_;                        // of all searches
   std::uint64_t spent_ = 0;                // beside that
@@ -274,8 +310,21 @@ RestReplanner::RestReplanner(const Instance& instance, const MotionTimes& times,
 }
 
 ReplanAnswer RestReplanner::replan(const ReplanQuestion& question, const Deadline& deadline) {
-  return RestRun(instance_, is_of_lanes_, times_, question, deadline)
-      .run(budget_.expansions, budget_.seed + replans_++);
+  RestRun run(instance_, is_of_lanes_, times_, question, expected_, deadline);
+  ReplanAnswer answer = run.run(budget_.expansions, budget_.seed + replans_++);
+  expect(run.arrivals(), question.asked);
+  return answer;
+}
+
+void RestReplanner::expect(const std::vector<std::uint32_t>& arrivals, std::uint64_t asked) {
+  const std::uint64_t passed = asked - std::min(asked, asked_);
+  const bool is_first = expected_.empty();
+  expected_.resize(arrivals.size(), 0);
+  for (std::size_t robot = 0; robot < arrivals.size(); ++robot) {
+    const std::uint64_t arrival = asked + arrivals[robot];
+    expected_[robot] = is_first ? arrival : std::min(arrival, expected_[robot] + passed);
+  }
+  asked_ = asked;
 }
 
 }  // namespace split_mapf

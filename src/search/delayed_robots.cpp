@@ -1,8 +1,14 @@
 #include "search/delayed_robots.h"
 
+#include <algorithm>
+
 namespace split_mapf {
 
 namespace {
+
+// How often a robot is drawn that is late by what was expected.
+constexpr std::uint64_t kExpected = 4;
+constexpr std::uint64_t kExpectedOf = 5;
 
 /// @param delay_of  the steps that a robot loses.
 template <typename DelayOf>
@@ -38,11 +44,20 @@ std::uint32_t drawDelayed(const Instance& instance, const Plan& plan, RandomEngi
       engine);
 }
 
-std::uint32_t drawDelayed(const std::vector<std::uint32_t>& soonest, const Plan& plan,
-                          RandomEngine& engine) {
+std::uint32_t DelayedRobots::draw(const Plan& plan, RandomEngine& engine) const {
+  const auto arrival = [&](std::uint32_t robot) { return plan.paths[robot].size() - 1; };
+  if (!expected_.empty() && drawBelow(engine, kExpectedOf) < kExpected) {
+    const auto lateness = [&](std::uint32_t robot) {
+      const std::size_t least = std::max(expected_[robot], soonest_[robot]);
+      return arrival(robot) - std::min(arrival(robot), least);
+    };
+    const auto robots = static_cast<std::uint32_t>(expected_.size());
+    const std::uint32_t robot = drawByDelay(robots, lateness, engine);
+    if (lateness(robot) > 0) return robot;
+  }
   return drawByDelay(
-      static_cast<std::uint32_t>(soonest.size()),
-      [&](std::uint32_t robot) { return plan.paths[robot].size() - 1 - soonest[robot]; }, engine);
+      static_cast<std::uint32_t>(soonest_.size()),
+      [&](std::uint32_t robot) { return arrival(robot) - soonest_[robot]; }, engine);
 }
 
 std::uint32_t drawLostStep(const Path& path, const HeldDistances& distances, RandomEngine& engine) {

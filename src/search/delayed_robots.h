@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "split_mapf/core/distance_table.h"
@@ -13,9 +14,22 @@ namespace split_mapf {
 /// A robot that arrives later than it could alone; those that lose more are likelier. Any robot
 /// where nobody loses. Cost: O(robots).
 std::uint32_t drawDelayed(const Instance& instance, const Plan& plan, RandomEngine& engine);
-/// The same where it is known when each robot could arrive alone [steps]: for who asks often.
-std::uint32_t drawDelayed(const std::vector<std::uint32_t>& soonest, const Plan& plan,
-                          RandomEngine& engine);
+
+/// The same for who asks often, where it is known when each robot could arrive alone; mostly robots
+/// that arrive later than they were expected to, if that is known.
+class DelayedRobots {
+ public:
+  /// @param soonest  arrival of each robot alone [steps].
+  explicit DelayedRobots(std::vector<std::uint32_t> soonest) : soonest_(std::move(soonest)) {}
+  /// @param arrivals  by robot, in the steps of the plan. What happened since is near those that
+  /// arrive later now; the others have been looked at before.
+  void expect(std::vector<std::uint32_t> arrivals) { expected_ = std::move(arrivals); }
+  std::uint32_t draw(const Plan& plan, RandomEngine& engine) const;
+
+ private:
+  std::vector<std::uint32_t> soonest_;
+  std::vector<std::uint32_t> expected_;  // empty: nothing was
+};
 
 /// A step that brings the robot no nearer to its goal; any step where there is none.
 std::uint32_t drawLostStep(const Path& path, const HeldDistances& distances, RandomEngine& engine);

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "search/delayed_robots.h"
-
 namespace split_mapf {
 
 std::uint32_t Neighbourhood::keptUntil(const Path& path, std::uint32_t departure) const {
@@ -15,7 +13,7 @@ NeighbourhoodPicker::NeighbourhoodPicker(const Instance& instance, std::uint64_t
                                          Departures departures)
     : instance_(instance),
       departures_(std::move(departures)),
-      soonest_(departures_.soonestArrivals(instance)),
+      delayed_(departures_.soonestArrivals(instance)),
       engine_(seed),
       marks_(instance.robots(), 0) {}
 
@@ -138,7 +136,7 @@ void NeighbourhoodPicker::pick(const Plan& plan, const PathTable& table, Neighbo
   ++pick_number_;
   const std::size_t way = ways_.draw(engine_);
   const std::size_t size = std::min<std::size_t>(kSizes[sizes_.draw(engine_)], instance_.robots());
-  const std::uint32_t robot = drawDelayed(soonest_, plan, engine_);
+  const std::uint32_t robot = delayed_.draw(plan, engine_);
   picked.reach = kReaches[reaches_.draw(engine_)];
   picked.event = drawLostStep(plan.paths[robot], instance_.distances(robot), engine_);
   picked.sideways = drawBelow(engine_, in_vain_ + instance_.robots()) < in_vain_;

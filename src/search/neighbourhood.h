@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "search/adaptive_choice.h"
+#include "search/delayed_robots.h"
 #include "search/departures.h"
 #include "search/path_table.h"
 #include "search/stay.h"
@@ -52,6 +53,8 @@ class NeighbourhoodPicker {
   /// What came of the last pick: steps gained and states expanded.
   void reward(std::uint64_t gain, std::uint64_t expansions);
 
+  DelayedRobots& delayed() { return delayed_; }
+
  private:
   enum Way { kInTheWay, kAroundArrival, kCrowd, kRandom, kWays };
   static constexpr std::array<std::uint32_t, 5> kSizes = {1, 2, 4, 8, 16};
@@ -74,7 +77,7 @@ class NeighbourhoodPicker {
 
   const Instance& instance_;
   const Departures departures_;
-  const std::vector<std::uint32_t> soonest_;  // arrival of each robot alone
+  DelayedRobots delayed_;
   RandomEngine engine_;
   AdaptiveChoice<kWays> ways_;
   AdaptiveChoice<kSizes.size()> sizes_;

@@ -26,7 +26,6 @@ NeighbourhoodSearch::NeighbourhoodSearch(const Instance& instance, ReservationTa
                                          std::size_t reserved)
     : instance_(instance),
       departures_(departures),
-      soonest_(departures.soonestArrivals(instance)),
       latest_arrival_(latest_arrival),
       picker_(instance, seed, departures),
       engine_(seed),
@@ -171,7 +170,7 @@ std::int64_t NeighbourhoodSearch::tryNeighbourhood(const Deadline& deadline, con
 std::int64_t NeighbourhoodSearch::tryChain(const Deadline& deadline, const Accept& accept,
                                            double temperature) {
   ChainStart start;
-  start.robot = drawDelayed(soonest_, plan_, engine_);
+  start.robot = picker_.delayed().draw(plan_, engine_);
   if (departures_.holds(start.robot, plan_.paths[start.robot])) return 0;
   // Its waits may be far from what keeps it.
   start.path = soonestAlong(table_, plan_.paths[start.robot], departures_(start.robot));

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "search/adaptive_choice.h"
@@ -48,6 +49,10 @@ class NeighbourhoodSearch {
   /// may become worse. @param temperature  mean of what it may lose, drawn as in simulated
   /// annealing [steps].
   std::int64_t tryOne(const Deadline& deadline, const Accept& accept, double temperature = 0);
+  /// See DelayedRobots.
+  void expect(std::vector<std::uint32_t> arrivals) {
+    picker_.delayed().expect(std::move(arrivals));
+  }
   /// Puts a robot on another path. @pre the plan is valid again after the last of such changes.
   void replace(std::uint32_t robot, Path path);
 
@@ -84,7 +89,6 @@ class NeighbourhoodSearch {
 
   const Instance& instance_;
   const Departures departures_;
-  const std::vector<std::uint32_t> soonest_;  // arrival of each robot alone
   std::uint32_t latest_arrival_;
   NeighbourhoodPicker picker_;
   RandomEngine engine_;

@@ -57,10 +57,10 @@ struct FleetQuestion {
   bool stalled_before = false;          ///< and a plan made anew for that has moved nobody
   /// Edges that come too near to robots that take no part, ascending; none on a grid.
   std::vector<Edge> closed_edges = {};
-
-  // Of a rolling fleet.
   double asked_sec = 0;  ///< on the caller's clock
   double step_sec = 1;
+
+  // Of a rolling fleet.
   std::vector<bool> closed =
       {};  ///< by vertex: where no robot may be sent, whichever robot is there
   std::vector<std::uint32_t> numbers = {};  ///< by robot, those that join last: stays the same

@@ -35,6 +35,7 @@ struct ReplanQuestion {
   bool avoid_rings = false;  ///< with a release above 0
   /// What is promised whatever the forecast says, downward-closed; empty: nothing.
   Cut promised;
+  std::uint64_t asked = 0;  ///< when, on a clock of the caller's [ticks]; see RestReplanner
 };
 
 /// What came of a replan.
@@ -56,6 +57,9 @@ struct ReplanAnswer {
 /// there none. With `avoid_rings` a robot of each ring is planned anew so that it does not close
 /// it, where that is possible within half of the budget; what is left is a joint move. Then, but
 /// for maps of lanes, searches keep a headway of a step, see ReservationTable.
+/// It remembers when robots were expected to arrive: those that will arrive later than that are
+/// where something has happened, and most searches begin there. What cannot be brought back is
+/// expected to be later by a tick for each tick that has passed.
 /// Source: ours. Not thread-safe. Cost: the budget, and O(events).
 class RestReplanner {
  public:
@@ -67,11 +71,15 @@ class RestReplanner {
   ReplanAnswer replan(const ReplanQuestion& question, const Deadline& deadline = {});
 
  private:
+  void expect(const std::vector<std::uint32_t>& arrivals, std::uint64_t asked);
+
   const Instance& instance_;
   const bool is_of_lanes_;
   MotionTimes times_;
   ReplanBudget budget_;
   std::uint64_t replans_ = 0;
+  std::vector<std::uint64_t> expected_;  // arrival by robot [ticks of the caller's clock]
+  std::uint64_t asked_ = 0;              // last
 };
 
 }  // namespace split_mapf
