@@ -204,7 +204,9 @@ class PlanSoak(SoakRun):
         self.start_node()
         clients = [PlainClient("client_%d" % number, "split_mapf/plan_paths", PlanPathsActionGoal,
                                PlanPathsActionResult) for number in range(self.options.clients)]
-        if not wait_until(lambda: all(client.is_connected() for client in clients)):
+        # A node under a sanitizer is slow to begin.
+        connected = wait_until(lambda: all(client.is_connected() for client in clients), PATIENCE_SEC)
+        if not connected:
             raise RuntimeError("no action server: " + self.node.output())
         threads = [threading.Thread(target=self.conduct_to_end, args=(client, number))
                    for number, client in enumerate(clients)]

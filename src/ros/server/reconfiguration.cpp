@@ -64,7 +64,8 @@ GoalOptions withConfig(const PlannerConfig& config, GoalOptions options) {
 }
 
 PlannerConfig configOf(const GoalOptions& options) {
-  PlannerConfig config;
+  // It has groups of its own, which nothing else would set.
+  PlannerConfig config = PlannerConfig::__getDefault__();
   config.solver = options.plan.solver;
   config.split = options.plan.split;
   config.objective = toString(options.plan.objective);
