@@ -1,7 +1,8 @@
 # shellcheck shell=bash disable=SC2154
 # Sourced by scripts/test and scripts/analyse: runs their stages (functions run_NAME), one after the
 # other, and sums up. The last line is 'N passed, N failed'; a stage without tests of its own counts
-# as one. The script that sources this one lists its stages in all_stages.
+# as one. The script that sources this one lists its stages in all_stages. From SPLIT_MAPF_LAST_BEGIN on
+# (seconds since 1970; unset: never) no stage begins any more.
 
 readonly not_run=77 # exit status of a stage whose tool this system does not have
 readonly build=$SPLIT_MAPF_ROOT/build
@@ -30,6 +31,11 @@ count_ctest() {
 run_stage() {
   local name=$1 status=0 began=$SECONDS stage_passed=0 stage_failed=0 verdict
   printf '\n=== %s ===\n' "$name"
+  if [[ -n ${SPLIT_MAPF_LAST_BEGIN:-} && $(date +%s) -gt $SPLIT_MAPF_LAST_BEGIN ]]; then
+    summary+=("$(printf '%-10s %5d s   not run: too late to begin' "$name" 0)")
+    echo "=== $name: not run, as it is too late to begin ==="
+    return
+  fi
   : > "$counts"
   set +e
   (
