@@ -5,13 +5,15 @@ a script that knows the bag alone."""
 
 import math
 import os
+import resource
 import signal
 
 import rospy
 import rosunit
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 
 from fleet_case import FleetCase
-from ros_processes import wait_until
+from ros_processes import Recorder, wait_until
 from split_mapf.msg import (MultiRobotPlan, PlanOutcome, RobotPath, RobotProgress, RobotState,
                             RobotTask)
 from split_mapf.srv import AddRobot, BlockCells, PauseRobots, RemoveRobot
@@ -53,6 +55,23 @@ class Fleet(FleetCase):
         self.assertEqual(goal.result().outcome, PlanOutcome.SUCCEEDED, goal.result().message)
         self.assertEqual(self.count(RobotState.ARRIVED), self.ROBOTS)
         self.assert_kept_apart()
+
+    def test_drives_on_when_the_disk_is_full(self):
+        fleet = self.start_fleet()
+        _, most = resource.prlimit(fleet.process.pid, resource.RLIMIT_FSIZE)
+        resource.prlimit(fleet.process.pid, resource.RLIMIT_FSIZE, (1, most))
+        told = Recorder("/diagnostics", DiagnosticArray)
+        self.addCleanup(told.close)
+        self.start_robots()
+        goal = self.send()
+
+        def is_told():
+            return any(status.level == DiagnosticStatus.ERROR and self.file in status.message
+                       for message in told.messages for status in message.status)
+        self.assertTrue(wait_until(is_told), told.messages[-1:])
+        self.assertTrue(goal.wait_for_end(PATIENCE))
+        self.assertEqual(goal.result().outcome, PlanOutcome.SUCCEEDED, goal.result().message)
+        self.assertFalse(os.path.exists(self.file))
 
     def test_answers_what_cannot_be(self):
         fleet = self.start_fleet()
