@@ -27,8 +27,8 @@ void serve(std::uint32_t threads, const std::string& ready, const std::function<
 }
 
 int runNode(int argc, char** argv, const char* name, void (*run)(NodeContext&)) {
-  // A file that grows beyond a limit, as a log may, is an error of writing, as on a full disk, and no
-  // end. Threads of roscpp have this signal blocked, all others not.
+  // A file that grows beyond a limit, as a log may, is an error of writing, as on a full disk, and
+  // no end. Threads of roscpp have this signal blocked, all others not.
   std::signal(SIGXFSZ, SIG_IGN);
   ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
   // Keeps ROS, and with it the log, alive until an error has been told.
