@@ -86,11 +86,15 @@ class EvictionSearch {
   /// What comes first among states of a weight: 3 instead of 2 for the way that is left gains no
   /// more.
   std::size_t keyOf(std::uint32_t time, std::uint32_t distance) const {
-    if (hurries()) return (time + std::size_t{distance}) * query_->hurry.steps_a_delay + distance;
+    if (hurries()) return (time + std::size_t{distance}) * stepsADelay() + distance;
     return time + std::size_t{query_->hasty ? 2U : 1U} * distance;
   }
   std::size_t keyOf(std::uint32_t index) const {
     return keyOf(queue_[index].time, distanceOf(queue_[index].vertex));
+  }
+  std::uint32_t stepsADelay() const {
+    const bool greedy = query_->hurry.greedy != Hurry::kNever;
+    return greedy ? Hurry::kGreedyStepsADelay : Hurry::kStepsADelay;
   }
   bool hurries() const { return query_->hurry.begin != Hurry::kNever; }
   std::uint32_t weightOf(const Stay& stay) const { return (*query_->weights)[stay.robot]; }

@@ -23,7 +23,7 @@ inline void GapSearch::push(std::uint32_t parent, Vertex v, std::uint32_t time,
   queue_.push({v, time, leave_by, parent}, keyOf(estimate, distance));
   const bool holds = distance == 0 && time >= earliest_hold_;
   const bool is_first = time <= std::max(estimate_, earliest_hold_);
-  if (holds && (is_first || hurries_)) {
+  if (holds && (is_first || steps_a_delay_ > 0)) {
     arrived_ = static_cast<std::uint32_t>(queue_.states().size() - 1);
   }
 }
@@ -54,7 +54,7 @@ bool GapSearch::isStartFree() const {
 bool GapSearch::begin() {
   queue_.clear();
   arrived_ = kNoState;
-  hurries_ = false;
+  steps_a_delay_ = 0;
   // Once nobody moves any more the way home takes a step a vertex at most.
   const std::uint64_t longest =
       std::uint64_t{query_->placed->lastChange()} + query_->departure + graph_.size();
@@ -77,8 +77,8 @@ bool GapSearch::begin() {
 }
 
 /// Puts what is open into the new order; what came last stays first among equals.
-void GapSearch::beginToHurry() {
-  hurries_ = true;
+void GapSearch::hurry(std::uint32_t steps_a_delay) {
+  steps_a_delay_ = steps_a_delay;
   std::vector<std::uint32_t> open;
   while (!queue_.empty()) open.push_back(queue_.pop());
   for (auto index = open.rbegin(); index != open.rend(); ++index) {
@@ -92,7 +92,10 @@ void GapSearch::findArrival(GapAnswer& answer, const Deadline& deadline) {
   const Vertex goal = query_->distances->goal();
   std::uint64_t& expansions = answer.work.expansions;
   while (arrived_ == kNoState && !queue_.empty()) {
-    if (expansions == query_->hurry.begin && !hurries_) beginToHurry();
+    if (expansions == query_->hurry.begin && steps_a_delay_ == 0) hurry(Hurry::kStepsADelay);
+    if (expansions == query_->hurry.greedy && steps_a_delay_ != Hurry::kGreedyStepsADelay) {
+      hurry(Hurry::kGreedyStepsADelay);
+    }
     const std::uint32_t index = queue_.pop();
     const State& state = queue_[index];
     if (isOutdated(state)) continue;

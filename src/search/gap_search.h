@@ -22,9 +22,14 @@ struct Hurry {
   static constexpr std::uint64_t kNever = ~std::uint64_t{0};
 
   /// From so many on a path is wanted soon: what is left of the way counts then, and a step of
-  /// delay as much as `steps_a_delay` steps of it (weighted A*, Pohl 1970).
+  /// delay as much as kStepsADelay steps of it (weighted A*, Pohl 1970).
   std::uint64_t begin = kNever;
-  std::uint32_t steps_a_delay = 8;
+  static constexpr std::uint32_t kStepsADelay = 8;
+  /// From so many on as much as fewer steps: whoever is delayed more than once in kStepsADelay
+  /// steps would go back to the start of its way again and again. An EvictionSearch, which comes
+  /// later, does so at once.
+  std::uint64_t greedy = kNever;
+  static constexpr std::uint32_t kGreedyStepsADelay = 2;
   /// After so many a GapSearch has no answer, which does not mean that there is no path, and an
   /// EvictionSearch goes on to the next weight; `hasty` is of no effect then.
   std::uint64_t end = kNever;
@@ -147,18 +152,18 @@ class GapSearch {
   bool begin();
   void findArrival(GapAnswer& answer, const Deadline& deadline);
   bool isStartFree() const;
-  void beginToHurry();
+  void hurry(std::uint32_t steps_a_delay);
   void expand(std::uint32_t index);
   void move(const State& state, std::uint32_t index, Vertex to);
   void push(std::uint32_t parent, Vertex v, std::uint32_t time, std::uint32_t distance);
   std::uint32_t distanceOf(Vertex v) const { return way_left_(v); }
   /// What comes first: of the estimated arrivals the earliest, or what looks soon done.
   std::size_t keyOf(std::uint32_t estimate, std::uint32_t distance) const {
-    if (!hurries_) return estimate - first_estimate_;
+    if (steps_a_delay_ == 0) return estimate - first_estimate_;
     // Until the goal can be held a delay costs nothing.
     const std::uint32_t least = std::max(first_estimate_, earliest_hold_);
     const std::size_t delay = estimate - std::min(estimate, least);
-    return delay * query_->hurry.steps_a_delay + distance;
+    return delay * steps_a_delay_ + distance;
   }
 
   const Graph& graph_;
@@ -166,7 +171,7 @@ class GapSearch {
   WayLeft way_left_;
   std::uint32_t latest_arrival_ = 0;
   std::uint32_t earliest_hold_ = 0;  // from this step on the goal can be held for good
-  bool hurries_ = false;
+  std::uint32_t steps_a_delay_ = 0;  // 0: it does not hurry
   std::uint32_t first_estimate_ = 0;
   std::uint32_t estimate_ = 0;        // of the state that is expanded
   std::uint32_t arrived_ = kNoState;  // a state that holds the goal as soon as any can

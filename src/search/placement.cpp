@@ -15,6 +15,8 @@ constexpr std::uint64_t kLeastJam = 500000;
 // before it hurries, one with twice as many two. Where there is room most paths are found so, and
 // are the first to arrive; dense teams would look at half the rectangle between start and goal.
 constexpr std::size_t kCellsAnExpansion = 16;
+// After so many more it is greedy.
+constexpr std::uint64_t kPatientAStep = 2;
 // Then the search may take so many more until somebody is displaced.
 constexpr std::uint64_t kHurriedAStep = 8;
 constexpr std::uint64_t kHurried = 4000;
@@ -34,6 +36,7 @@ bool goesStraight(const Instance& instance, std::uint32_t robot) {
 Hurry hurryOf(const Instance& instance, std::uint32_t length) {
   Hurry hurry;
   hurry.begin = instance.graph().size() / instance.robots() / kCellsAnExpansion * length;
+  hurry.greedy = hurry.begin + kPatientAStep * length;
   hurry.end = hurry.begin + kHurriedAStep * length + kHurried;
   return hurry;
 }

@@ -24,6 +24,13 @@ constexpr std::uint32_t kFewRobots = 100;
 constexpr std::uint64_t kJamExpansions = 500000;
 constexpr std::uint64_t kJamExpansionsAStep = 50;
 
+// So many robots are always in a hurry: those of 1000x1000 cells would look for first arrivals for
+// an hour.
+constexpr std::uint32_t kHugeTeam = 50000;
+// Sum of costs, in a hurry: the first horizon exceeds the greatest shortest path by one step in so
+// many. Whoever looks for no first arrival needs some time to come around the others.
+constexpr std::uint32_t kSlackOneIn = 8;
+
 constexpr const char* kName = "conflict_optimizer";
 
 SolverTraits traitsOfConflictOptimizer() {
@@ -118,7 +125,8 @@ SolverInfo ConflictOptimizerSolver::info() {
       {"slack", std::to_string(defaults.slack),
        "sum of costs: steps that the first horizon exceeds the greatest shortest path by"},
       {"hurry", defaults.hurry ? "true" : "false",
-       "robots do not look long for the path that arrives first: a plan sooner, that costs more"}};
+       "robots do not look long for the path that arrives first: a plan sooner, that costs more; "
+       "50000 robots and more never do"}};
   info.make = [](const SolverOptions& options) {
     return std::make_unique<ConflictOptimizerSolver>(options);
   };
@@ -144,12 +152,13 @@ SolveResult ConflictOptimizerSolver::placeAll(const SolveRequest& request,
   effort.patience =
       std::max<std::uint64_t>(1, settings_.patience * std::max(kFewRobots, instance.robots()));
   effort.expansion_limit = expansion_limit_;
-  effort.hurries = settings_.hurry;
+  effort.hurries = settings_.hurry || instance.robots() >= kHugeTeam;
   // Longer than this no robot has to travel on any but pathological graphs.
   const std::uint64_t longest = std::uint64_t{4} * (bound + instance.graph().size());
   // On few cells the first horizon would be longer, and none would be tried.
   std::uint64_t slack =
-      ruleOf(objective_).greatest_only ? 0 : std::min(settings_.slack, longest - bound);
+      std::max<std::uint64_t>(settings_.slack, effort.hurries ? bound / kSlackOneIn : 0);
+  slack = ruleOf(objective_).greatest_only ? 0 : std::min(slack, longest - bound);
   for (std::uint64_t step = 1; bound + slack <= longest; slack += step, step += (step + 3) / 4) {
     ++result.high_level_nodes;
     if (slack >= bound) effort.jam_limit = 0;  // it is doubled already

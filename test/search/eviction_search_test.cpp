@@ -156,9 +156,11 @@ struct Run {
 };
 
 /// Looks for the first arrival in so many expansions, and for any in so many in all.
-Hurry hurry(std::uint64_t begin, std::uint64_t end = Hurry::kNever) {
+Hurry hurry(std::uint64_t begin, std::uint64_t end = Hurry::kNever,
+            std::uint64_t greedy = Hurry::kNever) {
   Hurry hurry;
   hurry.begin = begin;
+  hurry.greedy = greedy;
   hurry.end = end;
   return hurry;
 }
@@ -221,6 +223,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Run{"MayNotEvictInAHurry", false, false, hurry(3)},
                       Run{"MayEvictInAHurry", true, false, hurry(3)},
                       Run{"EndsInAHurry", true, false, hurry(3, 12)},
+                      Run{"MayEvictAndIsGreedy", true, false, hurry(3, Hurry::kNever, 6)},
                       Run{"MayEvictByRowsAndColumns", true, false, {}, true},
                       Run{"MayEvictByRowsAndColumnsInAHurry", true, false, hurry(3), true}),
     [](const ::testing::TestParamInfo<Run>& run) { return run.param.name; });
