@@ -193,9 +193,8 @@ class PlanSoak(SoakRun):
     def start_node(self):
         arguments = ("__name:=split_mapf", "_threads:=2", "_time_limit:=3.0", "_max_queued_goals:=12",
                      "_publish_paths:=false")
-        # AddressSanitizer keeps memory that was freed for a while, 256 MiB by default, and every call stack
-        # that ever asked for memory for good: searches that call themselves have new ones all the time.
-        env = {"ASAN_OPTIONS": "quarantine_size_mb=16:detect_leaks=1:malloc_context_size=3"}
+        # Memory that was freed is kept for a while by AddressSanitizer, 256 MiB by default.
+        env = {"ASAN_OPTIONS": "quarantine_size_mb=16:detect_leaks=1"}
         if self.options.node:
             self.node = self.start(Program(self.options.node, *arguments, env=env))
         else:
