@@ -35,15 +35,6 @@ std::uint32_t drawByDelay(std::uint32_t n, DelayOf delay_of, RandomEngine& engin
 
 }  // namespace
 
-std::uint32_t drawDelayed(const Instance& instance, const Plan& plan, RandomEngine& engine) {
-  return drawByDelay(
-      instance.robots(),
-      [&](std::uint32_t robot) {
-        return plan.paths[robot].size() - 1 - instance.shortestLength(robot);
-      },
-      engine);
-}
-
 std::uint32_t DelayedRobots::draw(const Plan& plan, RandomEngine& engine) const {
   const auto arrival = [&](std::uint32_t robot) { return plan.paths[robot].size() - 1; };
   if (!expected_.empty() && drawBelow(engine, kExpectedOf) < kExpected) {

@@ -5,18 +5,14 @@
 #include <vector>
 
 #include "split_mapf/core/distance_table.h"
-#include "split_mapf/core/instance.h"
 #include "split_mapf/core/plan.h"
 #include "split_mapf/core/random.h"
 
 namespace split_mapf {
 
-/// A robot that arrives later than it could alone; those that lose more are likelier. Any robot
-/// where nobody loses. Cost: O(robots).
-std::uint32_t drawDelayed(const Instance& instance, const Plan& plan, RandomEngine& engine);
-
-/// The same for who asks often, where it is known when each robot could arrive alone; mostly robots
-/// that arrive later than they were expected to, if that is known.
+/// Draws robots that arrive later than they could alone, those that lose more with a greater
+/// chance, or any where nobody loses; and mostly robots that arrive later than they were expected
+/// to, if that is known. Cost: O(robots).
 class DelayedRobots {
  public:
   /// @param soonest  arrival of each robot alone [steps].

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "search/delayed_robots.h"
+#include "search/departures.h"
 #include "split_mapf/core/random.h"
 #include "split_mapf/core/validate.h"
 #include "support/ascii_grid.h"
@@ -27,7 +28,7 @@ void expectHolds(const ReservationTable& table, const Instance& instance, const 
 ChainStart drawStart(const Instance& instance, const Plan& plan, const ReservationTable& table,
                      RandomEngine& engine) {
   ChainStart start;
-  start.robot = drawDelayed(instance, plan, engine);
+  start.robot = DelayedRobots(Departures().soonestArrivals(instance)).draw(plan, engine);
   start.path = soonestAlong(table, plan.paths[start.robot]);
   start.event = drawLostStep(start.path, instance.distances(start.robot), engine);
   start.reach = drawBelow(engine, 3) == 0 ? kForever : 4;
