@@ -31,7 +31,7 @@ std::optional<FleetQuestion> FleetExecution::ask(double now) {
   if (incident_) {
     const bool is_empty = robots_.empty() && joiners_.empty();
     if (now < next_anew_ || is_empty) return std::nullopt;
-    return makeQuestion(true);
+    return makeQuestion(true, now);
   }
   if (!goes_on || now < next_replan_) return std::nullopt;
   const bool stalled = !anyMayMove();
@@ -39,10 +39,8 @@ std::optional<FleetQuestion> FleetExecution::ask(double now) {
   if (!stalled && !rings && !options_.replans) return std::nullopt;
   // What an earlier try could not take out another may, from other places and with another seed.
   const bool anew = stalled && questions_ > 0;
-  FleetQuestion question = makeQuestion(anew);
+  FleetQuestion question = makeQuestion(anew, now);
   if (anew) ++stalls_;
-  question.asked_sec = now;
-  question.step_sec = options_.step_sec;
   return question;
 }
 
@@ -50,10 +48,8 @@ std::optional<FleetQuestion> FleetExecution::ask(double now) {
 std::optional<FleetQuestion> FleetExecution::askRolling(double now) {
   if (incident_ ? now < next_anew_ : now < next_replan_ || !hasWork()) return std::nullopt;
   if (robots_.empty() && joiners_.empty()) return std::nullopt;
-  FleetQuestion question = makeQuestion(true);
+  FleetQuestion question = makeQuestion(true, now);
   next_replan_ = now + options_.step_sec;
-  question.asked_sec = now;
-  question.step_sec = options_.step_sec;
   question.closed = closedCells();
   // Those that join make room like all others.
   for (std::size_t i = 0; i < question_joiners_; ++i) {
@@ -99,7 +95,7 @@ void FleetExecution::setGoal(std::uint32_t robot, Vertex goal, double now) {
   incident_ = true;
 }
 
-FleetQuestion FleetExecution::makeQuestion(bool anew) {
+FleetQuestion FleetExecution::makeQuestion(bool anew, double now) {
   question_at_.clear();
   question_void_.clear();
   std::vector<bool> takes_part;
@@ -161,7 +157,9 @@ FleetQuestion FleetExecution::makeQuestion(bool anew) {
           ground_,
           !anyMayMove(),
           stalls_ > 0,
-          closedEdges()};
+          closedEdges(),
+          now,
+          options_.step_sec};
 }
 
 bool FleetExecution::isUrgent() const {

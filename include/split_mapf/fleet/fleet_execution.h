@@ -277,7 +277,7 @@ class FleetExecution {
   // Replans.
   /// Whether a question is out whose answer will be taken: no robot has left since.
   bool isAwaited() const { return asked_ && question_version_ == version_; }
-  FleetQuestion makeQuestion(bool anew);
+  FleetQuestion makeQuestion(bool anew, double now);
   std::optional<FleetQuestion> askRolling(double now);
   bool hasWork() const;
   void takeNothing(const FleetAnswer& answer, double now);
