@@ -123,7 +123,8 @@ SolverInfo ConflictOptimizerSolver::info() {
       {"patience", std::to_string(defaults.patience),
        "placements a robot without progress before a horizon is given up for a longer one"},
       {"slack", std::to_string(defaults.slack),
-       "sum of costs: steps that the first horizon exceeds the greatest shortest path by"},
+       "sum of costs: steps that the first horizon exceeds the greatest shortest path by; in a "
+       "hurry at least an eighth of that path"},
       {"hurry", defaults.hurry ? "true" : "false",
        "robots do not look long for the path that arrives first: a plan sooner, that costs more; "
        "50000 robots and more never do"}};
