@@ -30,6 +30,13 @@ std::string reasonOf(const Json::parse_error& error) {
   return colon == std::string::npos ? text : text.substr(colon + 2);
 }
 
+// "... number overflow parsing '1e999'": what stands between the quotes.
+std::string numberOf(const Json::out_of_range& error) {
+  const std::string text = error.what();
+  const std::size_t begin = text.find('\'') + 1;
+  return text.substr(begin, text.rfind('\'') - begin);
+}
+
 // One plan file being read: its name, and the place that a message names.
 struct Place {
   const std::string& path;
@@ -242,6 +249,14 @@ class PoseTaker {
   std::vector<std::vector<MapPoint>> poses_;
 };
 
+/// @param offset  of the byte that is wrong; beyond the end: the last line.
+[[noreturn]] void failAtLineOf(const std::string& path, const std::string& bytes,
+                               std::size_t offset, const std::string& message) {
+  const auto end = bytes.begin() + static_cast<std::ptrdiff_t>(std::min(bytes.size(), offset));
+  const auto lines = std::count(bytes.begin(), end, '\n');
+  failAtLine(path, static_cast<std::size_t>(lines) + 1, message);
+}
+
 /// @param paths  the list of them.
 Json parse(const std::string& path, StreamedObject parser, const StreamedList& paths) {
   const std::string bytes = readFile(path);
@@ -249,11 +264,13 @@ Json parse(const std::string& path, StreamedObject parser, const StreamedList& p
   try {
     document = parser.parse(bytes);
   } catch (const Json::parse_error& error) {
-    const std::size_t end = std::min(bytes.size(), error.byte > 0 ? error.byte - 1 : 0);
-    const auto line =
-        std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(end), '\n');
-    failAtLine(path, static_cast<std::size_t>(line) + 1,
-               "read malformed JSON, expected a plan: " + reasonOf(error));
+    failAtLineOf(path, bytes, error.byte > 0 ? error.byte - 1 : 0,
+                 "read malformed JSON, expected a plan: " + reasonOf(error));
+  } catch (const Json::out_of_range& error) {
+    // The library tells the number, but not where it stands.
+    const std::string number = numberOf(error);
+    failAtLineOf(path, bytes, bytes.find(number),
+                 "read " + quote(number) + ", expected a number below 1.8e308");
   }
   if (!document.is_object()) fail(path, "read " + shown(document) + ", expected a JSON object");
   if (paths.times == 0) fail(path, "read no 'paths', expected a list of paths, one a robot");

@@ -69,6 +69,13 @@ TEST_F(PlanJsonReadTest, NamesTheLineOfMalformedJson) {
   EXPECT_NE(errorOfJson("{\n\"paths\": ]").find(']'), std::string::npos);
 }
 
+TEST_F(PlanJsonReadTest, NamesTheLineOfANumberThatNoMachineHolds) {
+  EXPECT_EQ(errorOfJson("{\n\"paths\": [[[0,1],\n[444e44444444444444444444,2]]]}"),
+            "a.json:3: read '444e44444444444444444444', expected a number below 1.8e308");
+  EXPECT_EQ(errorOfJson("{\"paths\": [],\n \"gap\": -1e400}"),
+            "a.json:2: read '-1e400', expected a number below 1.8e308");
+}
+
 TEST_F(PlanJsonReadTest, NamesMissingOrRepeatedPaths) {
   EXPECT_EQ(errorOfJson("{}"), "a.json: read no 'paths', expected a list of paths, one a robot");
   EXPECT_EQ(errorOfJson("[1]"), "a.json: read '[1]', expected a JSON object");
