@@ -31,7 +31,7 @@ StraightSearch::StraightSearch(const HeadingGraph& graph, std::uint32_t vertices
     : graph_(graph), slot_(vertices, 0), stamp_(vertices, 0) {}
 
 /// A robot that may lose more steps than there are bits keeps its path until it has lost some.
-void StraightSearch::begin(const Path& own) {
+void StraightSearch::begin(const Path& own, std::uint32_t more) {
   ++search_;
   met_.clear();
   records_.clear();
@@ -47,7 +47,7 @@ void StraightSearch::begin(const Path& own) {
   }
   loss_ = loss(begin_);
   mask_ = ~std::uint64_t{0} >> (63 - loss_);
-  most_turns_ = 0;
+  most_turns_ = more;
   Heading heading = first_heading_;
   for (std::uint32_t t = begin_ + 1; t < own.size(); ++t) {
     if (own[t] == own[t - 1]) continue;
@@ -189,10 +189,10 @@ Path StraightSearch::pathTo(const Path& own, Heading heading) const {
 }
 
 Path StraightSearch::search(const Path& own, const DistanceTable& distances,
-                            const ReservationTable& placed) {
+                            const ReservationTable& placed, std::uint32_t more) {
   distances_ = &distances;
   placed_ = &placed;
-  begin(own);
+  begin(own, more);
   if (most_turns_ == 0) return {};
   push({meet(own[begin_]), 0, 1, first_heading_});
   for (std::uint32_t turns = 0; turns < most_turns_; ++turns) {

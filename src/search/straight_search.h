@@ -43,8 +43,11 @@ class HeadingGraph {
 class StraightSearch {
  public:
   explicit StraightSearch(const HeadingGraph& graph, std::uint32_t vertices);
-  /// @param placed  without the robot. @return an empty path where none has fewer turns than `own`.
-  Path search(const Path& own, const DistanceTable& distances, const ReservationTable& placed);
+  /// @param placed  without the robot.
+  /// @param more  turns that the path may have more than `own`, less one.
+  /// @return an empty path where none has fewer turns than `own` and `more`.
+  Path search(const Path& own, const DistanceTable& distances, const ReservationTable& placed,
+              std::uint32_t more = 0);
 
  private:
   static constexpr std::uint32_t kNone = 0xffffffffU;
@@ -74,7 +77,7 @@ class StraightSearch {
     Heading heading;
   };
 
-  void begin(const Path& own);
+  void begin(const Path& own, std::uint32_t more);
   std::uint32_t meet(Vertex v);
   std::uint64_t freeBits(Vertex v, std::int32_t base) const;
   bool expand(const Item& item);

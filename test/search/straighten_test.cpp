@@ -40,6 +40,28 @@ TEST(Straighten, AStaircaseBecomesOneCorner) {
   EXPECT_EQ(straight.paths[0].size(), plan.paths[0].size());
 }
 
+/// Robot 0 has one corner where robot 1 does not come through the upper one just then, which may as
+/// well come along the middle row: with as many turns as before, so it does not do so by itself.
+TEST(Straighten, OneRobotMakesRoomForAnother) {
+  const auto grid = test::gridFromAscii({"......", "......", "#....."});
+  const auto path = [&](std::initializer_list<Cell> cells) {
+    Path vertices;
+    for (const Cell cell : cells) vertices.push_back(grid->vertexAt(cell));
+    return vertices;
+  };
+  Plan plan;
+  plan.paths = {path({{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {3, 2}, {4, 2}}),
+                path({{5, 1}, {5, 1}, {5, 1}, {5, 0}, {4, 0}, {3, 0}})};
+  const Instance instance = test::instanceOf(grid, plan);
+  ASSERT_TRUE(validate(instance, plan).empty());
+  const Plan straight = straighten(instance, plan, {}, {});
+  ASSERT_TRUE(validate(instance, straight).empty());
+  EXPECT_EQ(countTurns(*grid, straight.paths[0]), 1U);
+  EXPECT_EQ(countTurns(*grid, straight.paths[1]), 1U);
+  EXPECT_EQ(straight.paths[0].size(), plan.paths[0].size());
+  EXPECT_EQ(straight.paths[1].size(), plan.paths[1].size());
+}
+
 /// The fewest turns of a robot among others that stay on their paths, by a plain search over all
 /// (step, vertex, heading).
 std::uint32_t fewestTurns(const Grid& grid, const Plan& plan, std::uint32_t robot) {
@@ -112,6 +134,12 @@ TEST(StraightSearch, FindsTheFewestTurnsThatOthersLeave) {
   EXPECT_GT(found, 500U);
 }
 
+std::uint32_t turnsOf(const Grid& grid, const Plan& plan) {
+  std::uint32_t turns = 0;
+  for (const Path& path : plan.paths) turns += countTurns(grid, path);
+  return turns;
+}
+
 TEST(Straighten, TakesTurnsOutAndKeepsEveryCost) {
   Executor executor(2);
   std::uint64_t taken_out = 0;
@@ -127,9 +155,9 @@ TEST(Straighten, TakesTurnsOutAndKeepsEveryCost) {
     EXPECT_EQ(straighten(instance, plan, executor.lend(), {}).paths, straight.paths);
     for (std::uint32_t i = 0; i < robots; ++i) {
       EXPECT_LE(costOf(straight.paths[i]), costOf(plan.paths[i]));
-      EXPECT_LE(countTurns(*grid, straight.paths[i]), countTurns(*grid, plan.paths[i]));
-      taken_out += countTurns(*grid, plan.paths[i]) - countTurns(*grid, straight.paths[i]);
     }
+    ASSERT_LE(turnsOf(*grid, straight), turnsOf(*grid, plan));
+    taken_out += turnsOf(*grid, plan) - turnsOf(*grid, straight);
   }
   EXPECT_GT(taken_out, 1000U);
 }
@@ -144,8 +172,8 @@ TEST(Straighten, KeepsCostsWhereRobotsMayLoseMoreStepsThanAWordHolds) {
     ASSERT_TRUE(validate(instance, straight).empty());
     for (std::uint32_t robot = 0; robot < 4; ++robot) {
       EXPECT_LE(costOf(straight.paths[robot]), costOf(plan.paths[robot]));
-      EXPECT_LE(countTurns(*grid, straight.paths[robot]), countTurns(*grid, plan.paths[robot]));
     }
+    EXPECT_LE(turnsOf(*grid, straight), turnsOf(*grid, plan));
   }
 }
 
