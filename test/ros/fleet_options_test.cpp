@@ -70,8 +70,9 @@ TEST(FleetOptions, SayWhichOfThePlannersHaveNoMeaning) {
   XmlRpc::XmlRpcValue parameters = parametersOf("objective", "makespan");
   parameters["time_limit"] = 5.0;
   parameters["workers"] = "nats://host";
+  parameters["solver_plugins"][0] = "mine/Fast";
   EXPECT_EQ(findUnknownFleetParameters(parameters),
-            (std::vector<std::string>{"objective", "workers"}));
+            (std::vector<std::string>{"objective", "solver_plugins", "workers"}));
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ struct FleetOptions {
   bool replans = true;                  ///< improve the rest of the plan again and again
   double step_sec = 1;                  ///< that a move takes
   double turn_sec = 0;                  ///< of a quarter turn in place
-  double replan_period_sec = 3;
+  double replan_period_sec = 1;
   double progress_timeout_sec = 5;  ///< of silence until a robot counts as lost
   double obstacle_time_sec = 60;    ///< for so long a cell that a robot found blocked is avoided
   std::uint32_t release_ahead = 2;  ///< visits that a robot is promised

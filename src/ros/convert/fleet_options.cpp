@@ -18,8 +18,8 @@ constexpr double kMostSeconds = 1e9;
 constexpr double kTimeLimitSec = 10;
 
 // Of the planner node, without a meaning here: a fleet is planned anew for the sum of costs.
-constexpr std::array<const char*, 5> kOfPlannerAlone = {"objective", "max_queued_goals",
-                                                        "publish_paths", "fill_poses", "workers"};
+constexpr std::array<const char*, 6> kOfPlannerAlone = {
+    "objective", "max_queued_goals", "publish_paths", "fill_poses", "solver_plugins", "workers"};
 
 bool readChoice(ParameterReader& reader, const std::string& name, const char* yes, const char* no,
                 bool chosen) {
