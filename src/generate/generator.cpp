@@ -85,7 +85,6 @@ void requireValid(const GeneratorOptions& options) {
     throw OptionError("density " + std::to_string(*options.density) +
                       ": expected a share of blocked cells, 0 <= density < 1");
   }
-  if (options.robots == 0) throw OptionError("robots 0: at least one is needed");
 }
 
 void strewObstacles(double density, RandomEngine& engine, std::uint32_t width, std::uint32_t height,
@@ -202,6 +201,25 @@ std::vector<Cell> drawCells(const Grid& grid, std::vector<Vertex> vertices, std:
   return cells;
 }
 
+GeneratedProblem place(std::shared_ptr<const Grid> grid, std::uint32_t robots,
+                       RandomEngine& engine) {
+  const std::vector<Vertex> component = largestComponent(grid->graph());
+  if (robots > component.size()) {
+    throw OptionError(counted(robots, "robot") + ": the largest connected part of this map has " +
+                      counted(component.size(), "cell") +
+                      ", and each robot needs its own start and goal");
+  }
+  GeneratedProblem problem;
+  problem.starts = drawCells(*grid, component, robots, engine);
+  problem.goals = drawCells(*grid, component, robots, engine);
+  problem.grid = std::move(grid);
+  return problem;
+}
+
+void requireRobots(std::uint32_t robots) {
+  if (robots == 0) throw OptionError("robots 0: at least one is needed");
+}
+
 }  // namespace
 
 std::string toString(MapKind kind) {
@@ -225,18 +243,16 @@ MapKind parseMapKind(const std::string& text) {
 
 GeneratedProblem generateProblem(const GeneratorOptions& options) {
   requireValid(options);
+  requireRobots(options.robots);
   RandomEngine engine(options.seed);
-  GeneratedProblem problem;
-  problem.grid = buildGrid(options, engine);
-  const std::vector<Vertex> component = largestComponent(problem.grid->graph());
-  if (options.robots > component.size()) {
-    throw OptionError(
-        counted(options.robots, "robot") + ": the largest connected part of this map has " +
-        counted(component.size(), "cell") + ", and each robot needs its own start and goal");
-  }
-  problem.starts = drawCells(*problem.grid, component, options.robots, engine);
-  problem.goals = drawCells(*problem.grid, component, options.robots, engine);
-  return problem;
+  return place(buildGrid(options, engine), options.robots, engine);
+}
+
+GeneratedProblem drawRobots(std::shared_ptr<const Grid> grid, std::uint32_t robots,
+                            std::uint64_t seed) {
+  requireRobots(robots);
+  RandomEngine engine(seed);
+  return place(std::move(grid), robots, engine);
 }
 
 }  // namespace split_mapf

@@ -38,28 +38,53 @@ GeneratorOptions readOptions(const CommandLine& line) {
   return options;
 }
 
-/// Poses on a map that is there already.
-ExitCode generatePoses(const CommandLine& line) {
+/// @throws OptionError naming an option that makes a map.
+void requireNoMapOptions(const CommandLine& line) {
   for (const char* name : {"type", "width", "height", "density", "output-map"}) {
     if (line.has(name)) {
       throw OptionError(std::string("option --") + name + " makes a map; --map names one");
     }
   }
+}
+
+/// @param map_file  whose name the scenario's rows say.
+void writeScenario(const std::string& path, const std::string& map_file,
+                   const GeneratedProblem& problem) {
+  writeMovingAiScenario(path, std::filesystem::path(map_file).filename().string(), *problem.grid,
+                        {problem.starts, problem.goals});
+}
+
+/// Cells on a map that is there already.
+ExitCode generateCells(const CommandLine& line, const RobotOptions& options) {
   const std::string output = line.text("output-scen");
-  if (!isPoseScenario(output)) {
+  if (asksForRoadmap(options.roadmap)) {
     throw OptionError("option --output-scen: " + quote(output) +
                       " was given, a .yaml is expected for poses");
   }
+  requireNoGraphOptions(line);
   requireWritable(output);
-  const RobotOptions options = readRobotOptions(line);
-  const GeneratorOptions defaults = readOptions(line);
+  const GeneratorOptions wanted = readOptions(line);
+  const std::string map_file = line.text("map");
+  const GeneratedProblem problem =
+      drawRobots(readMapOfPoints(map_file, options), wanted.robots, wanted.seed);
+  writeScenario(output, map_file, problem);
+  std::cout << counted(wanted.robots, "robot") << " on " << problem.grid->size()
+            << " free cells, seed " << wanted.seed << ": " << output << "\n";
+  return ExitCode::kOk;
+}
+
+/// Poses on a map that is there already.
+ExitCode generatePoses(const CommandLine& line, const RobotOptions& options) {
+  const std::string output = line.text("output-scen");
+  requireWritable(output);
+  const GeneratorOptions wanted = readOptions(line);
   const OccupancyMap map = readMapInMetres(line.text("map"), options);
   PoseDraw draw;
   draw.raster = std::make_shared<const ObstacleRaster>(obstaclesOf(map, options));
   draw.roadmap = options.roadmap;
   draw.snap_distance_m = options.snap_distance_m;
-  draw.robots = defaults.robots;
-  draw.seed = defaults.seed;
+  draw.robots = wanted.robots;
+  draw.seed = wanted.seed;
   const DrawnPoses drawn = drawPoses(draw);
   const MapFrame frame = frameOf(map);
   std::vector<PosedRobot> robots;
@@ -84,22 +109,29 @@ ExitCode generatePoses(const CommandLine& line) {
 
 ExitCode runGenerate(const Call& call) {
   const GeneratorOptions defaults;
-  CommandLine line("generate",
-                   "Generates a map and a scenario: robots with random distinct starts and goals,\n"
-                   "none of them cut off. The same options give the same files everywhere.\n"
-                   "With --map: random poses of robots that have size on a map that is there.");
+  CommandLine line(
+      "generate",
+      "Generates a map and a scenario: robots with random distinct starts and goals,\n"
+      "none of them cut off. The same options give the same files everywhere.\n"
+      "With --map: robots on a map that is there, at cells (--output-scen FILE.scen) or\n"
+      "at poses of robots that have size (FILE.yaml).");
   line.offer("type", "NAME", "random, warehouse or rooms (" + toString(defaults.kind) + ")");
   line.offer("width", "CELLS", "width of the map (" + std::to_string(defaults.width) + ")");
   line.offer("height", "CELLS", "height of the map (" + std::to_string(defaults.height) + ")");
   line.offer("density", "SHARE", "share of blocked cells of a random map, 0 <= SHARE < 1 (0.1)");
   line.offer("agents", "N", "number of robots (" + std::to_string(defaults.robots) + ")");
   line.offer("seed", "N", "all randomness (" + std::to_string(defaults.seed) + ")");
-  line.offer("map", "FILE", "draw poses on this map_server .yaml");
+  line.offer("map", "FILE", "draw robots on this map: MovingAI .map, or map_server .yaml");
   declareRobotOptions(line);
   line.offer("output-map", "FILE", "write the map as MovingAI .map");
   line.require("output-scen", "FILE", "write the scenario as MovingAI .scen, or poses as .yaml");
   if (!line.parse(call.arguments)) return ExitCode::kOk;
-  if (line.has("map")) return generatePoses(line);
+  if (line.has("map")) {
+    requireNoMapOptions(line);
+    const RobotOptions options = readRobotOptions(line);
+    return isPoseScenario(line.text("output-scen")) ? generatePoses(line, options)
+                                                    : generateCells(line, options);
+  }
   if (!line.has("output-map"))
     throw OptionError("option --output-map, or --map, is needed; see split_mapf generate --help");
   if (asksForRoadmap(readRobotOptions(line).roadmap)) {
@@ -116,8 +148,7 @@ ExitCode runGenerate(const Call& call) {
   requireWritable(scenario_file);
   const GeneratedProblem problem = generateProblem(options);
   writeMovingAiMap(map_file, *problem.grid);
-  writeMovingAiScenario(scenario_file, std::filesystem::path(map_file).filename().string(),
-                        *problem.grid, {problem.starts, problem.goals});
+  writeScenario(scenario_file, map_file, problem);
   std::cout << toString(options.kind) << " map of " << options.width << "x" << options.height
             << " cells, " << problem.grid->size() << " of them free, "
             << counted(options.robots, "robot") << ", seed " << options.seed << ": " << map_file

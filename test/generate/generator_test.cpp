@@ -121,6 +121,19 @@ TEST(Generator, DrawsStartsAndGoalsFromTheLargestPartOnly) {
   EXPECT_GT(cut_maps, 25);
 }
 
+TEST(Generator, DrawsRobotsOnAMapThatIsThere) {
+  const GeneratorOptions options = optionsOf(MapKind::kRooms, 40, 30, 1);
+  const auto grid = generateProblem(options).grid;
+  const GeneratedProblem problem = drawRobots(grid, 200, 5);
+  EXPECT_EQ(problem.grid, grid);
+  const Instance instance(grid, problem.starts, problem.goals);
+  EXPECT_EQ(instance.robots(), 200U);
+  EXPECT_EQ(drawRobots(grid, 200, 5).goals, problem.goals);
+  EXPECT_NE(drawRobots(grid, 200, 6).goals, problem.goals);
+  EXPECT_THROW(drawRobots(grid, 0, 5), OptionError);
+  EXPECT_THROW(drawRobots(grid, grid->size() + 1, 5), OptionError);
+}
+
 TEST(Generator, FillsEveryCellWhenAsked) {
   GeneratorOptions options = optionsOf(MapKind::kRandom, 5, 4, 20);
   options.density = 0;

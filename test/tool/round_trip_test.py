@@ -56,6 +56,24 @@ class RoundTripTest(CommandTest):
         with open(self.path("g.scen")) as file:
             self.assertEqual(len(file.read().splitlines()), 1 + 5)
 
+    def test_robots_are_drawn_on_a_map_that_is_there(self):
+        self.generate("g", "--width", 16, "--height", 16, "--density", 0.2, "--agents", 5)
+        draw = ["generate", "--map", "g.map", "--agents", 30, "--seed", 4]
+        self.expect(0, *draw, "--output-scen", "one.scen")
+        self.expect(0, *draw, "--output-scen", "other.scen")
+        with open(self.path("one.scen")) as one, open(self.path("other.scen")) as other:
+            text = one.read()
+            self.assertEqual(text, other.read())
+        rows = [row.split("\t") for row in text.splitlines()[1:]]
+        self.assertEqual(len(rows), 30)
+        self.assertEqual({row[1] for row in rows}, {"g.map"})
+        for columns in ((4, 5), (6, 7)):
+            self.assertEqual(len({tuple(row[c] for c in columns) for row in rows}), 30)
+        self.expect(0, "plan", "--map", "g.map", "--scen", "one.scen", "--output", "plan.json")
+        self.expect_refusal("257 robots", "generate", "--map", "g.map", "--agents", 257,
+                            "--output-scen", "no.scen")
+        self.expect_refusal("--density", *draw, "--output-scen", "no.scen", "--density", 0.1)
+
 
 class BrokenPlanTest(CommandTest):
     def setUp(self):

@@ -48,4 +48,10 @@ struct GeneratedProblem {
 /// @throws OptionError for a wish that cannot be met. Cost: O(cells). Thread-safe.
 GeneratedProblem generateProblem(const GeneratorOptions& options);
 
+/// Draws robots on a map that is there, in the same way.
+/// @param robots  as in GeneratorOptions. @throws OptionError for too many, or none. Cost:
+/// O(cells). Thread-safe.
+GeneratedProblem drawRobots(std::shared_ptr<const Grid> grid, std::uint32_t robots,
+                            std::uint64_t seed);
+
 }  // namespace split_mapf
