@@ -42,7 +42,7 @@ void PieceRace::ask(PieceWorkers& workers, const std::vector<std::size_t>& asked
                     std::vector<SubproblemReport> rows) {
   for (std::size_t i = 0; i < asked.size(); ++i) questions_[asked[i]] = i;
   PieceWorkers::Listener listener;
-  listener.begun = [this, asked](std::size_t i) { begunAway(asked[i]); };
+  listener.begun = [this, asked](std::size_t i) { return begunAway(asked[i]); };
   listener.answered = [this, asked, rows = std::move(rows)](std::size_t i, PieceAnswer answer) {
     return takeAnswer(asked[i], rows[i], std::move(answer));
   };
@@ -76,9 +76,10 @@ std::optional<PieceRace::Draw> PieceRace::draw() {
   return Draw{*drawn, stops_[*drawn]};
 }
 
-void PieceRace::begunAway(std::size_t entry) {
+bool PieceRace::begunAway(std::size_t entry) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (states_[entry] == State::kOpen) states_[entry] = State::kAway;
+  return states_[entry] == State::kAway || states_[entry] == State::kBoth;
 }
 
 void PieceRace::finish(std::size_t entry, Outcome outcome) {

@@ -52,7 +52,8 @@ class PieceRace {
  private:
   enum class State { kOpen, kAway, kHere, kBoth, kDone };
 
-  void begunAway(std::size_t entry);
+  /// Whether nobody here has begun it before.
+  bool begunAway(std::size_t entry);
   /// Whether it is sound and the first.
   bool takeAnswer(std::size_t entry, const SubproblemReport& row, PieceAnswer answer);
   /// Puts the outcome in its place. False when there is one.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 namespace split_mapf {
@@ -11,7 +12,9 @@ namespace {
 
 constexpr const char* kQueue = "SPLIT_MAPF_PIECES";
 constexpr const char* kQueueSubjects = "split_mapf.pieces.>";
-constexpr const char* kTakeOut = "$JS.API.STREAM.PURGE.SPLIT_MAPF_PIECES";
+// One by one: after a purge by subject, servers as old as 2.9 give the readers nothing any more of
+// what waited then.
+constexpr const char* kTakeOut = "$JS.API.STREAM.MSG.DELETE.SPLIT_MAPF_PIECES";
 constexpr std::int64_t kSecond = 1000000000;
 // A worker that is silent for so long has lost its piece to another.
 constexpr std::int64_t kLease = 2 * kSecond;
@@ -157,6 +160,10 @@ std::size_t NatsLink::mostBytes() const {
 bool NatsLink::say(const std::string& subject, const std::string& bytes) {
   const natsStatus status = natsConnection_Publish(connection_, subject.c_str(), bytes.data(),
                                                    static_cast<int>(bytes.size()));
+  return isSaid(status);
+}
+
+bool NatsLink::isSaid(int status) {
   // Half a message may have gone out; and who speaks next would wait as long.
   if (status == NATS_TIMEOUT) close();
   return status == NATS_OK;
@@ -187,8 +194,22 @@ void NatsLink::makeQueue() {
                   false);
 }
 
-void NatsLink::takeOutOfQueue(const std::string& subject) {
-  say(kTakeOut, R"({"filter":")" + subject + R"("})");
+bool NatsLink::putIntoQueue(const std::string& subject, const std::string& bytes,
+                            const std::string& place_to) {
+  return isSaid(natsConnection_PublishRequest(connection_, subject.c_str(), place_to.c_str(),
+                                              bytes.data(), static_cast<int>(bytes.size())));
+}
+
+std::optional<std::uint64_t> NatsLink::placeIn(const std::string& bytes) {
+  const nlohmann::json answer = nlohmann::json::parse(bytes, nullptr, false);
+  if (!answer.is_object()) return std::nullopt;
+  const auto place = answer.find("seq");
+  if (place == answer.end() || !place->is_number_unsigned()) return std::nullopt;
+  return place->get<std::uint64_t>();
+}
+
+void NatsLink::takeOutOfQueue(std::uint64_t place) {
+  say(kTakeOut, R"({"no_erase":true,"seq":)" + std::to_string(place) + "}");
 }
 
 std::unique_ptr<LinkReader> NatsLink::readQueue(const std::string& subject,

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -81,21 +83,29 @@ class NatsLink {
   std::string trouble() const;
   /// Bytes that the server takes in a message.
   std::size_t mostBytes() const;
-  /// Says something to who listens, or puts it into the queue, by its subject. False where it is
-  /// lost already. Waits for half a second at most; a server that takes nothing for so long is
-  /// left: the link is closed.
+  /// Says something to who listens. False where it is lost already. Waits for half a second at
+  /// most; a server that takes nothing for so long is left: the link is closed.
   bool say(const std::string& subject, const std::string& bytes);
   std::unique_ptr<LinkReader> listen(const std::string& subject);
 
   /// Makes the queue where it is not. @throws LinkError.
   void makeQueue();
-  /// Takes out of it what has this subject, or matches it, and waits for somebody.
-  void takeOutOfQueue(const std::string& subject);
+  /// Puts something into the queue, whose place the server then says on another subject. False
+  /// where it is lost already; waits as say().
+  bool putIntoQueue(const std::string& subject, const std::string& bytes,
+                    const std::string& place_to);
+  /// The place in the queue that the server said; nothing where it took nothing.
+  static std::optional<std::uint64_t> placeIn(const std::string& bytes);
+  /// Takes out of it what waits for somebody, or is with somebody who has not settled it.
+  void takeOutOfQueue(std::uint64_t place);
   /// Reads of it what matches the subject, together with others of the same name.
   /// @throws LinkError.
   std::unique_ptr<LinkReader> readQueue(const std::string& subject, const std::string& name);
 
  private:
+  /// Of something that was published: whether it is on its way.
+  bool isSaid(int status);
+
   std::string place_;  ///< of the server, for messages
   __natsConnection* connection_ = nullptr;
   __jsCtx* queue_ = nullptr;

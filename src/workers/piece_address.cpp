@@ -10,6 +10,8 @@
 namespace split_mapf {
 namespace {
 
+constexpr const char* kQueued = "queued";
+
 /// "split_mapf.KIND.".
 std::string rootOf(const char* kind) { return std::string("split_mapf.") + kind + "."; }
 
@@ -32,6 +34,8 @@ std::string PieceAddress::piece() const {
 
 std::string PieceAddress::answer() const { return rootOf("answers") + client + "." + name(); }
 
+std::string PieceAddress::queued() const { return rootOf(kQueued) + client + "." + name(); }
+
 std::optional<PieceAddress> addressOf(const std::string& subject) {
   std::vector<std::string> words;
   boost::algorithm::split(words, subject, boost::algorithm::is_any_of("."));
@@ -44,13 +48,11 @@ std::optional<PieceAddress> addressOf(const std::string& subject) {
   return PieceAddress{words[n - 3], *batch, *question};
 }
 
-std::string answersTo(const std::string& client) { return rootOf("answers") + client + ".>"; }
+bool saysPlace(const std::string& subject) { return subject.rfind(rootOf(kQueued), 0) == 0; }
+
+std::string messagesTo(const std::string& client) { return rootOf("*") + client + ".>"; }
 
 std::string signsOf(const std::string& client) { return rootOf("clients") + client; }
-
-std::string piecesOf(const std::string& client, std::uint64_t batch) {
-  return rootOf("pieces") + thisBuild() + "." + client + "." + std::to_string(batch) + ".>";
-}
 
 std::string piecesOfThisBuild() { return rootOf("pieces") + thisBuild() + ".>"; }
 

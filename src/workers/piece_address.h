@@ -10,6 +10,7 @@ namespace split_mapf {
 /// - split_mapf.pieces.BUILD.CLIENT.BATCH.QUESTION  in the queue: a question
 /// - split_mapf.answers.CLIENT.BATCH.QUESTION       its answer, or, without a byte, that it is
 /// begun
+/// - split_mapf.queued.CLIENT.BATCH.QUESTION        from the server: its place in the queue
 /// - split_mapf.clients.CLIENT                      "alive"; "stop BATCH.QUESTION"; "stop BATCH.>"
 /// BUILD tells sources, compiler and options: other builds may find other plans.
 struct PieceAddress {
@@ -19,18 +20,19 @@ struct PieceAddress {
 
   std::string piece() const;
   std::string answer() const;
+  std::string queued() const;
   /// BATCH.QUESTION.
   std::string name() const;
 };
 
-/// The address of a message of the queue or of an answer; nothing for other subjects.
+/// The address of a message of the queue, of an answer or of a place; nothing for other subjects.
 std::optional<PieceAddress> addressOf(const std::string& subject);
+/// Whether a message to a client says a place in the queue, and is no answer.
+bool saysPlace(const std::string& subject);
 
-/// Of all of a client's answers; of what it says to workers; of what all clients say.
-std::string answersTo(const std::string& client);
+/// Of all answers to a client, and all places; of what it says to workers.
+std::string messagesTo(const std::string& client);
 std::string signsOf(const std::string& client);
-/// The pieces of a batch in the queue.
-std::string piecesOf(const std::string& client, std::uint64_t batch);
 /// All pieces that this build solves.
 std::string piecesOfThisBuild();
 /// The name under which workers of this build read the queue together.

@@ -34,25 +34,27 @@ std::string drawName() {
 /// Questions that are open.
 class WorkerClient::OpenBatch : public PieceWorkers::Batch {
  public:
-  OpenBatch(WorkerClient& client, std::shared_ptr<NatsLink> link, std::uint64_t batch)
-      : client_(client), link_(std::move(link)), batch_(batch) {}
+  OpenBatch(WorkerClient& client, std::shared_ptr<NatsLink> link, std::shared_ptr<Told> told,
+            std::uint64_t batch)
+      : client_(client), link_(std::move(link)), told_(std::move(told)), batch_(batch) {}
   ~OpenBatch() override {
     client_.end(batch_);
-    link_->takeOutOfQueue(piecesOf(client_.client_, batch_));
+    for (std::size_t i = 0; i < told_->places.size(); ++i) leaveQueue(*link_, *told_, i);
     link_->say(signsOf(client_.client_), "stop " + std::to_string(batch_) + ".>");
   }
   OpenBatch(const OpenBatch&) = delete;
   OpenBatch& operator=(const OpenBatch&) = delete;
 
   void withdraw(std::size_t question) override {
+    leaveQueue(*link_, *told_, question);
     const PieceAddress address{client_.client_, batch_, question};
-    link_->takeOutOfQueue(address.piece());
     link_->say(signsOf(client_.client_), "stop " + address.name());
   }
 
  private:
   WorkerClient& client_;
   const std::shared_ptr<NatsLink> link_;
+  const std::shared_ptr<Told> told_;
   const std::uint64_t batch_;
 };
 
@@ -85,7 +87,7 @@ std::unique_ptr<PieceWorkers::Batch> WorkerClient::ask(const std::vector<PieceQu
   const std::shared_ptr<NatsLink> link = this->link();
   if (!link) return nullptr;
   const auto told = std::make_shared<Told>();
-  told->questions = questions.size();
+  told->places.resize(questions.size());
   told->listener = std::move(listener);
   PieceAddress address{client_, 0, 0};
   {
@@ -93,12 +95,13 @@ std::unique_ptr<PieceWorkers::Batch> WorkerClient::ask(const std::vector<PieceQu
     address.batch = ++last_batch_;
     batches_[address.batch] = told;
   }
-  auto batch = std::make_unique<OpenBatch>(*this, link, address.batch);
+  auto batch = std::make_unique<OpenBatch>(*this, link, told, address.batch);
   link->say(signsOf(client_), "alive");
   for (; address.question < questions.size(); ++address.question) {
     const std::string bytes = toBytes(questions[address.question]);
     if (bytes.size() > link->mostBytes()) continue;
-    if (!link->say(address.piece(), bytes)) break;  // nor would it take the next
+    // Else it would not take the next, either.
+    if (!link->putIntoQueue(address.piece(), bytes, address.queued())) break;
     ++asked_;
   }
   return batch;
@@ -166,7 +169,7 @@ std::shared_ptr<NatsLink> WorkerClient::connect() {
 }
 
 void WorkerClient::listen(const std::shared_ptr<NatsLink>& link) {
-  const std::unique_ptr<LinkReader> answers = link->listen(answersTo(client_));
+  const std::unique_ptr<LinkReader> answers = link->listen(messagesTo(client_));
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     link_ = link;
@@ -175,7 +178,7 @@ void WorkerClient::listen(const std::shared_ptr<NatsLink>& link) {
   changed_.notify_all();
   Clock::time_point last_sign = Clock::now();
   for (;;) {
-    if (const auto message = answers->next(kPollSec)) take(*message);
+    if (const auto message = answers->next(kPollSec)) take(*link, *message);
     if (const std::string trouble = link->trouble(); !trouble.empty()) {
       throw LinkError(trouble, false);
     }
@@ -189,21 +192,49 @@ void WorkerClient::listen(const std::shared_ptr<NatsLink>& link) {
   }
 }
 
-void WorkerClient::take(const LinkMessage& message) {
+void WorkerClient::leaveQueue(NatsLink& link, Told& told, std::size_t question) {
+  const std::lock_guard<std::mutex> lock(told.places_mutex);
+  Place& place = told.places[question];
+  if (place.wanted && place.number) link.takeOutOfQueue(*place.number);
+  place.wanted = false;
+}
+
+/// @param told  of the batch; null where it has ended.
+void WorkerClient::takePlace(NatsLink& link, Told* told, std::size_t question,
+                             const std::string& bytes) {
+  const std::optional<std::uint64_t> number = NatsLink::placeIn(bytes);
+  if (!number) return;
+  if (told == nullptr) return link.takeOutOfQueue(*number);
+  const std::lock_guard<std::mutex> lock(told->places_mutex);
+  if (question >= told->places.size()) return;
+  Place& place = told->places[question];
+  place.number = number;
+  if (!place.wanted) link.takeOutOfQueue(*number);
+}
+
+void WorkerClient::take(NatsLink& link, const LinkMessage& message) {
   const std::optional<PieceAddress> address = addressOf(message.subject());
   if (!address) return;
   std::shared_ptr<Told> told;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     const auto found = batches_.find(address->batch);
-    if (found == batches_.end()) return;
-    told = found->second;
+    if (found != batches_.end()) told = found->second;
   }
+  if (saysPlace(message.subject())) {
+    return takePlace(link, told.get(), address->question, message.bytes());
+  }
+  if (!told) return;
   const std::lock_guard<std::mutex> lock(told->mutex);
-  if (told->ended || address->question >= told->questions) return;
+  if (told->ended || address->question >= told->places.size()) return;
   try {
     const std::string bytes = message.bytes();
-    if (bytes.empty()) return told->listener.begun(address->question);
+    if (bytes.empty()) {
+      // A worker may take it out of the queue right when a thread here begins it.
+      const bool is_wanted = told->listener.begun(address->question);
+      if (!is_wanted) link.say(signsOf(client_), "stop " + address->name());
+      return;
+    }
     if (told->listener.answered(address->question, answerFromBytes(bytes))) ++answered_;
   } catch (const InputError&) {
     // Worth no more than none: the piece is solved here.

@@ -5,8 +5,10 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "workers/nats_link.h"
 #include "workers/piece_address.h"
@@ -31,13 +33,19 @@ class WorkerClient : public RemoteWorkers {
 
  private:
   class OpenBatch;
+  /// Of a question in the server's queue.
+  struct Place {
+    std::optional<std::uint64_t> number;  ///< as soon as the server has said it
+    bool wanted = true;
+  };
   /// What the listening thread knows of a batch. Its mutex is held while the listener is told, so
   /// that a batch that has ended tells nothing.
   struct Told {
     std::mutex mutex;
     bool ended = false;
-    std::size_t questions = 0;
     Listener listener;
+    std::mutex places_mutex;  // guards what follows
+    std::vector<Place> places;
   };
 
   void run();
@@ -45,7 +53,10 @@ class WorkerClient : public RemoteWorkers {
   std::shared_ptr<NatsLink> connect();
   /// Until this object ends. @throws LinkError when the server goes.
   void listen(const std::shared_ptr<NatsLink>& link);
-  void take(const LinkMessage& message);
+  void take(NatsLink& link, const LinkMessage& message);
+  /// Takes the question out of the queue, as soon as it is known where it is.
+  static void leaveQueue(NatsLink& link, Told& told, std::size_t question);
+  static void takePlace(NatsLink& link, Told* told, std::size_t question, const std::string& bytes);
   /// The link, after a moment where it is just being made; null: there is none.
   std::shared_ptr<NatsLink> link();
   void end(std::uint64_t batch);

@@ -97,10 +97,11 @@ TEST_F(PieceRaceTest, ThreadsDrawLongestFirstAndTakeItFromTheWorkers) {
 
 TEST_F(PieceRaceTest, WhatWorkersHaveBegunComesLast) {
   PieceRace& race = start(3);
-  workers_.listener.begun(0);  // entry 1
+  EXPECT_TRUE(workers_.listener.begun(0));  // entry 1
   EXPECT_EQ(race.draw()->entry, 0U);
   EXPECT_EQ(race.draw()->entry, 2U);
-  EXPECT_EQ(race.draw()->entry, 1U);  // nobody waits for somebody who may have gone
+  EXPECT_FALSE(workers_.listener.begun(1));  // a thread was sooner
+  EXPECT_EQ(race.draw()->entry, 1U);         // nobody waits for somebody who may have gone
   EXPECT_FALSE(race.draw());
 }
 

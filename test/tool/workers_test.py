@@ -78,7 +78,7 @@ class FreezingServer:
         self.client, _ = self.door.accept()
         threading.Thread(target=self.forward_answers, daemon=True).start()
         seen = b""
-        while b"SUB split_mapf.answers" not in seen:
+        while b"SUB split_mapf.*" not in seen:
             words = self.client.recv(4096)
             if not words:
                 return
@@ -244,6 +244,34 @@ class WorkersTest(WorkersCase):
         frozen.kill()
         other.kill()
         return is_handed_over and answers > 0
+
+    def test_what_waits_beside_a_withdrawn_piece_is_given_out(self):
+        # The queue is being read when it happens, by somebody who takes nothing.
+        reader = self.start_worker()
+        reader.send_signal(signal.SIGSTOP)
+        if not any(self.give_out_the_rest() for _ in range(TRIES)):
+            self.fail("no piece was given out once another had been withdrawn")
+
+    def give_out_the_rest(self):
+        """Freezes a client once it has withdrawn a piece. @return whether a worker got another."""
+        with socket.create_connection((self.host, self.port)) as connection:
+            connection.settimeout(PATIENCE_S)
+            hello = json.dumps({"verbose": False, "user": "fleet", "pass": PASSWORD})
+            connection.sendall(f"CONNECT {hello}\r\nSUB split_mapf.clients.> 1\r\nPING\r\n".encode())
+            seen = b""
+            while b"PONG" not in seen:
+                seen += connection.recv(4096)
+            plan = self.begin_plan()
+            while not re.search(rb"stop \d+\.[\d>]", seen):
+                seen += connection.recv(4096)
+        plan.send_signal(signal.SIGSTOP)
+        worker = self.start_worker()
+        # It hears of a client that is frozen for so long only.
+        is_given_out = worker.lines.sees("begun", 4)
+        plan.send_signal(signal.SIGCONT)
+        self.end_plan(plan)
+        worker.kill()
+        return is_given_out
 
     def test_the_server_goes_and_comes_back(self):
         worker = self.start_worker()

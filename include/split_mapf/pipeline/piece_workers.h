@@ -32,8 +32,8 @@ class PieceWorkers {
  public:
   /// Told from threads of the workers' own, several at once.
   struct Listener {
-    /// Somebody elsewhere is at it. May be told several times.
-    std::function<void(std::size_t question)> begun;
+    /// Somebody elsewhere is at it. May be told several times. Whether its answer is wanted still.
+    std::function<bool(std::size_t question)> begun;
     /// What came back, from whom ever: nothing of it has been checked but that it is an answer.
     /// Whether it was taken: it is sound, and the first.
     std::function<bool(std::size_t question, PieceAnswer answer)> answered;
