@@ -138,6 +138,7 @@ PieceRace::Outcome PieceSolver::solveOne(const PieceTask& task, std::uint32_t th
   } else {
     try {
       SolveRequest question(piece, deadline);
+      if (task.piece->shares == 0) question.on_late = on_late_;
       const auto solver = solvers_.create(row.solver, optionsFor(task));
       if (solver->traits().uses_threads) question.threads = executor_.lend(threads);
       result = solver->solve(question);

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pipeline/checked_request.h"
@@ -29,6 +31,9 @@ class PieceSolver {
   PieceSolver(const CheckedRequest& request, const SolverRegistry& solvers, Executor& executor,
               const Deadline& deadline, RunLog& log)
       : request_(request), solvers_(solvers), executor_(executor), deadline_(deadline), log_(log) {}
+
+  /// What the solver of a whole instance calls once it is late, see SolveRequest.
+  void callWhenLate(std::function<void()> call) { on_late_ = std::move(call); }
 
   /// One result a task, in their order; a row a task is appended to `rows`. Results do not depend
   /// on the number of threads, nor on who solves them. A time-out or a lack of memory of one piece
@@ -58,6 +63,7 @@ class PieceSolver {
   Executor& executor_;
   const Deadline& deadline_;
   RunLog& log_;
+  std::function<void()> on_late_;
 };
 
 }  // namespace split_mapf

@@ -83,9 +83,14 @@ void PlanRun::runStages() {
   choose();
   if (refuseStepTables()) return;
   std::optional<Plan> plan = planInPieces();
-  if (!plan) return;
+  if (!plan) return keepPlanOfMeanwhile("was not done in time");
   log_.enterStage("validate");
-  accept(std::move(*plan));
+  const auto cost = [this](const Plan& of) { return costOf(of, report_.objective); };
+  if (report_.plan && cost(*report_.plan) < cost(*plan)) {
+    keepPlanOfMeanwhile("found none that costs less");
+  } else {
+    accept(std::move(*plan));
+  }
   searchOptimum();
   if (request_.first_plan_only) return;
   takeFromOther();

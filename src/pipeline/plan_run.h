@@ -82,6 +82,11 @@ class PlanRun {
   void interrupt();
   /// Values of what `auto` calls: lean ones where memory is short or the plan is to be seen soon.
   std::map<std::string, std::string> valuesOf(const std::string& solver) const;
+  /// Has a plan made to be seen when what `auto` chose is late, where there is memory for two.
+  void planWhenLate();
+  void planMeanwhile();
+  /// The plan that was made meanwhile is the answer, if there is one.
+  void keepPlanOfMeanwhile(const std::string& why);
   /// What `auto` chose gets all the time but what the last resort is likely to need.
   void keepTimeForLastResort(double expected_sec);
 

@@ -1,6 +1,7 @@
 // How a PlanRun comes to its solver: by the request, by choice, and by another where one fails.
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <utility>
 
 #include "pipeline/plan_run.h"
@@ -18,6 +19,9 @@ constexpr double kLargestReserve = 0.3;
 constexpr double kLeastReserveSec = 0.5;
 // Of a solver that is called for a plan which is only looked at: half a second or so.
 constexpr std::uint64_t kTurnOfOthers = 2000000;
+// A step of the robots' shortest ways: of a plan to be seen while the one that was chosen is late.
+// About as many as that one has taken by then.
+constexpr std::uint64_t kMeanwhileAStep = 60;
 
 }  // namespace
 
@@ -61,6 +65,47 @@ void PlanRun::choose() {
   request_.solver_options.expansion_limit = choice.turn;
   if (!all_distances_.areTooLarge()) keepTimeForLastResort(choice.last_resort_sec);
   choice_ = " (chosen: " + choice.reason + ")";
+  planWhenLate();
+}
+
+/// Sums of costs have no need: what they choose makes its horizon longer where it is late.
+void PlanRun::planWhenLate() {
+  const bool is_crowd = instance_.robots() >= kCrowd;
+  const bool fits = !step_table_.isTooLarge() && !all_distances_.areTooLarge();
+  const bool wanted = ruleOf(report_.objective).greatest_only && !request_.first_plan_only &&
+                      !splits() && fits && !is_crowd && !last_resort_.empty() &&
+                      request_.solver != last_resort_;
+  if (wanted) piece_solver_.callWhenLate([this] { planMeanwhile(); });
+}
+
+void PlanRun::planMeanwhile() {
+  if (report_.plan) return;
+  SolverOptions options;
+  options.objective = report_.objective;
+  options.seed = report_.seed;
+  options.suboptimality = request_.solver_options.suboptimality;
+  options.expansion_limit = kMeanwhileAStep * report_.sum_of_costs_lower_bound;
+  options.values = solvers_.info(last_resort_).lean_values;
+  SolveResult result;
+  try {
+    result = solvers_.create(last_resort_, options)->solve(instance_, solve_deadline_);
+  } catch (const std::bad_alloc&) {
+    // There was memory for one.
+  } catch (const Interrupted&) {
+    // Who was chosen will see it, too.
+  }
+  if (!result.plan) return;
+  const std::string chosen = std::exchange(request_.solver, last_resort_);
+  accept(std::move(*result.plan));
+  request_.solver = chosen;
+}
+
+void PlanRun::keepPlanOfMeanwhile(const std::string& why) {
+  if (!report_.plan) return;
+  choice_.insert(choice_.size() - 1, "; " + request_.solver + " " + why);
+  request_.solver = last_resort_;
+  report_.termination = Termination::kSolved;
+  judge();
 }
 
 void PlanRun::keepTimeForLastResort(double expected_sec) {

@@ -10,7 +10,8 @@
 namespace split_mapf {
 
 /// What a call writes down while it runs: its clock, the seconds of its stages, its progress for
-/// the caller. Pieces report from worker threads; everything else comes from the calling thread.
+/// the caller. Pieces report from worker threads; everything else comes from the calling thread, or
+/// from a worker for which that one waits.
 class RunLog {
  public:
   explicit RunLog(const ProgressCallback& callback);

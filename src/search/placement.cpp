@@ -146,6 +146,12 @@ bool Placement::mayDisplace(const std::vector<std::uint32_t>& robots,
   });
 }
 
+void Placement::tellWhenLate(const Effort& effort) {
+  if (is_late_ || effort.on_late == nullptr || expansions_ <= effort.late_after) return;
+  is_late_ = true;
+  (*effort.on_late)();
+}
+
 bool Placement::isJammed(PlacementForecast& forecast, std::uint64_t jam_limit) const {
   if (jam_limit == 0) return false;
   const bool exceeds = forecast.exceeds(jam_limit, batch_.size(), queue_.size(), expansions_);
@@ -207,6 +213,7 @@ Placement::Outcome Placement::run(std::uint32_t horizon, const Effort& effort,
     }
     queue_.insert(queue_.begin(), postponed.begin(), postponed.end());
     if (interrupted) return Outcome::kInterrupted;
+    tellWhenLate(effort);
     batch_size_.adapt(batch_.size(), postponed.size());
     if (effort.forecasts && effort.expansion_limit > 0 &&
         forecast.exceeds(effort.expansion_limit, batch_.size(), queue_.size(), expansions_)) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <vector>
 
 #include "parallel/thread_team.h"
@@ -59,6 +60,9 @@ class Placement {
     /// Gives the horizon up as soon as so many expansions in all runs are foreseen for it; 0:
     /// never.
     std::uint64_t jam_limit = 0;
+    /// Called once as soon as all runs have taken more than `late_after` expansions; null: never.
+    const std::function<void()>* on_late = nullptr;
+    std::uint64_t late_after = 0;
     /// How often a robot may be displaced; a robot that could only displace one that was displaced
     /// so often is left over.
     std::uint64_t displacements = kNoLimit;
@@ -89,6 +93,7 @@ class Placement {
   void search(Candidate& candidate, EvictionSearch& search, std::uint32_t horizon,
               const Effort& effort, const Deadline& deadline) const;
   void searchBatch(std::uint32_t horizon, const Effort& effort, const Deadline& deadline);
+  void tellWhenLate(const Effort& effort);
   bool isJammed(PlacementForecast& forecast, std::uint64_t jam_limit) const;
   bool place(Candidate& candidate, std::uint64_t displacements);
   bool mayDisplace(const std::vector<std::uint32_t>& robots, std::uint64_t displacements) const;
@@ -112,6 +117,7 @@ class Placement {
   std::uint32_t batch_number_ = 0;
   BatchSize batch_size_;
   std::uint64_t expansions_ = 0;
+  bool is_late_ = false;
 };
 
 }  // namespace split_mapf

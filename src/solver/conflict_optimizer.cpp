@@ -18,9 +18,9 @@ namespace {
 // Fewer robots get as many placements as these.
 constexpr std::uint32_t kFewRobots = 100;
 
-// Sum of costs: the first horizon leaves robots that let others pass little time. Where more than
-// so many expansions a step of the robots' shortest ways are foreseen, twice the horizon takes
-// less.
+// Who takes more than so many expansions a step of the robots' shortest ways is in a jam. Sum of
+// costs: the first horizon leaves robots that let others pass little time, and where a jam is
+// foreseen twice the horizon takes less.
 constexpr std::uint64_t kJamExpansions = 500000;
 constexpr std::uint64_t kJamExpansionsAStep = 50;
 
@@ -64,6 +64,10 @@ Placement beginPlacing(const SolveRequest& request, std::uint64_t seed, std::uin
   return Placement(instance, known, horizon, seed, request.threads, reserved);
 }
 
+std::uint64_t expansionsOfJam(const Instance& instance) {
+  return kJamExpansions + kJamExpansionsAStep * sumOfCostsLowerBound(instance);
+}
+
 /// But for what the options say.
 Placement::Effort firstEffort(const Instance& instance, Objective objective) {
   Placement::Effort effort;
@@ -72,7 +76,7 @@ Placement::Effort firstEffort(const Instance& instance, Objective objective) {
   // Without room a longer horizon saves little and costs much; for makespan it is a worse plan.
   const bool has_room = instance.graph().size() > kCellsOfCrowd * instance.robots();
   if (ruleOf(objective).sums() && has_room && !effort.forecasts) {
-    effort.jam_limit = kJamExpansions + kJamExpansionsAStep * sumOfCostsLowerBound(instance);
+    effort.jam_limit = expansionsOfJam(instance);
   }
   return effort;
 }
@@ -153,6 +157,8 @@ SolveResult ConflictOptimizerSolver::placeAll(const SolveRequest& request,
   effort.patience =
       std::max<std::uint64_t>(1, settings_.patience * std::max(kFewRobots, instance.robots()));
   effort.expansion_limit = expansion_limit_;
+  if (request.on_late) effort.on_late = &request.on_late;
+  effort.late_after = expansionsOfJam(instance);
   effort.hurries = settings_.hurry || instance.robots() >= kHugeTeam;
   // Longer than this no robot has to travel on any but pathological graphs.
   const std::uint64_t longest = std::uint64_t{4} * (bound + instance.graph().size());

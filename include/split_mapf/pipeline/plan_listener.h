@@ -22,8 +22,8 @@ struct PlanProgress {
 using ProgressCallback = std::function<void(const PlanProgress&)>;
 
 /// Called with each better plan that has passed the validator, the first one included: the report
-/// as it would be returned if the run ended now. From the thread that called the planner; the
-/// reference holds during the call, which the run waits for.
+/// as it would be returned if the run ended now. From any thread, one call at a time; the reference
+/// holds during the call, which the run waits for.
 using BetterPlanCallback = std::function<void(const PlanReport&)>;
 
 /// Who is told what while a plan is made; either may be empty.
