@@ -43,6 +43,8 @@ void GapSearch::expand(std::uint32_t index) {
   estimate_ = state.time + distanceOf(state.vertex);
   const auto neighbours = graph_.neighbours(state.vertex);
   looks_ += neighbours.size();
+  const std::uint32_t word = (state.time + 1) / 64;
+  for (const Vertex to : neighbours) query_->placed->prefetch(to, word);
   for (const Vertex to : neighbours) move(state, index, to);
 }
 
