@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -79,6 +80,24 @@ TEST(PlanMeanwhile, IsThereWhenTheOneThatWasChosenGivesUp) {
   ASSERT_GE(seen.makespans.size(), 2U) << seen.report.message;
   EXPECT_LE(seen.report.makespan, seen.makespans.front());
   EXPECT_EQ(seen.report.message.rfind("solved by lacam", 0), 0U) << seen.report.message;
+}
+
+TEST(PlanMeanwhile, IsTheAnswerWhereNothingBetterComesInTime) {
+  const Instance instance = twoHalls(40, 3, 100, 1);
+  Executor executor(2);
+  const auto stop = std::make_shared<StopFlag>();
+  PlanListener listener;
+  listener.better_plan = [&](const PlanReport&) { stop->request(); };
+  const PlanReport report =
+      Planner(builtinSolvers(), executor).plan(instance, {}, Deadline(100, stop), listener);
+  EXPECT_EQ(report.termination, Termination::kSolved);
+  ASSERT_TRUE(report.plan) << report.message;
+  EXPECT_TRUE(validate(instance, *report.plan).empty());
+  EXPECT_EQ(report.trace.size(), 1U);
+  EXPECT_FALSE(report.optimal);
+  EXPECT_EQ(report.message.rfind("solved by lacam", 0), 0U) << report.message;
+  EXPECT_NE(report.message.find("conflict_optimizer was not done in time"), std::string::npos)
+      << report.message;
 }
 
 TEST(ConflictOptimizer, CallsOnceWhenItIsLate) {
