@@ -45,8 +45,8 @@ def main():
         return 5
     print("executing a plan of %d robots, %.0f s" %
           (len(plan.paths), plan.makespan * plan.step_duration))
-    client.send_goal(ExecutePlanGoal(plan=plan), feedback_cb=show)
     try:
+        client.send_goal(ExecutePlanGoal(plan=plan), feedback_cb=show)
         while not client.wait_for_result(rospy.Duration(0.2)):
             if rospy.is_shutdown():
                 return 5

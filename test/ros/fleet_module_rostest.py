@@ -7,7 +7,9 @@ import runpy
 import signal
 import sys
 import threading
+import time
 import unittest
+from unittest import mock
 
 import rospy
 import rosunit
@@ -137,6 +139,32 @@ class FleetModule(unittest.TestCase):
             self.fleet.plan(goal.robots, goal.map, interrupt, solver="ecbs", split="none",
                             objective="sum_of_costs", suboptimality=1.0, time_limit=600)
         self.assertTrue(wait_until(lambda: GoalStatus.PREEMPTED in ended), ended)
+
+    def test_ctrl_c_while_a_goal_is_being_sent_cancels_it(self):
+        ended = []
+        subscriber = rospy.Subscriber(
+            "split_mapf/plan_paths/status", GoalStatusArray,
+            lambda array: ended.extend(one.status for one in array.status_list
+                                       if one.goal_id.id in sent))
+        self.addCleanup(subscriber.unregister)
+        goal = hard_goal()
+        sent = []
+        client = self.fleet._client
+        send = client.send_goal
+
+        def send_and_interrupt(*words, **more):
+            handle = send(*words, **more)
+            sent.append(handle.comm_state_machine.action_goal.goal_id.id)
+            os.kill(os.getpid(), signal.SIGINT)
+            time.sleep(0.1)
+            return handle
+
+        with mock.patch.object(client, "send_goal", send_and_interrupt):
+            with self.assertRaises(KeyboardInterrupt):
+                self.fleet.plan(goal.robots, goal.map, solver="ecbs", split="none",
+                                objective="sum_of_costs", suboptimality=1.0, time_limit=600)
+        over = (GoalStatus.PREEMPTED, GoalStatus.RECALLED)
+        self.assertTrue(wait_until(lambda: any(one in over for one in ended)), ended)
 
     def start_planner(self, name):
         planner = start_program("planner_node", "__name:=" + name)

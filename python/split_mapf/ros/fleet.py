@@ -1,6 +1,9 @@
 """The action client of the planner node. All patience is counted by the wall: the node's answer may
 take as long as it likes, but a clock of a simulation that stands still keeps nobody waiting."""
 
+import contextlib
+import os
+import signal
 import threading
 import time
 
@@ -25,6 +28,28 @@ _WORDS = {
 _TYPES = dict(zip(PlanOptions.__slots__, PlanOptions._slot_types))
 _RANGES = {"uint32": (0, 2**32 - 1), "int32": (-2**31, 2**31 - 1), "int8": (-128, 127)}
 _POLL = 0.02  # [s]
+
+
+@contextlib.contextmanager
+def _interrupted_later():
+    """Ctrl-C comes once this is over: a goal that is just being sent cannot be cancelled."""
+    before = signal.getsignal(signal.SIGINT)
+    is_heard = threading.current_thread() is threading.main_thread() and before is not None
+    if not is_heard:
+        yield
+        return
+    came = []
+    signal.signal(signal.SIGINT, lambda *what: came.append(what))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+    if not came:
+        return
+    if callable(before):
+        before(*came[0])
+    else:
+        os.kill(os.getpid(), signal.SIGINT)
 
 
 class NoAnswer(Exception):
@@ -128,11 +153,17 @@ class Fleet:
         """The same for a PlanPathsGoal."""
         if not self.has_server():
             self.find_server()
-        return Goal(self, self._client, message, progress)
+        goal = Goal(self, self._client, message, progress)
+        try:
+            goal.send()
+        except KeyboardInterrupt:
+            goal.cancel()
+            raise
+        return goal
 
 
 class Goal:
-    """A goal that was sent."""
+    """A goal that is sent once."""
 
     def __init__(self, fleet, client, message, progress):
         self._fleet, self._client = fleet, client
@@ -141,12 +172,21 @@ class Goal:
         self._began = time.monotonic()
         self._cancelled = False
         self._answer = None
-        self._send()
+        self._handle = None
+        self._sent = self._began
+
+    def send(self):
+        """Sends it. Ctrl-C meanwhile is heard once it is on its way."""
+        show = self._progress and (lambda _, feedback: self._progress(feedback))
+        self._sent = time.monotonic()
+        with _interrupted_later():
+            self._handle = self._client.send_goal(self._message, feedback_cb=show)
 
     def cancel(self):
         """Asks the node to stop; the answer comes by wait(), and has a plan if one was found."""
         self._cancelled = True
-        self._handle.cancel()
+        if self._handle is not None:
+            self._handle.cancel()
 
     def wait(self, patience=None):
         """The Answer; None when there is none yet after so many seconds."""
@@ -162,11 +202,6 @@ class Goal:
                 time.sleep(_POLL)
         return self._answer
 
-    def _send(self):
-        show = self._progress and (lambda _, feedback: self._progress(feedback))
-        self._sent = time.monotonic()
-        self._handle = self._client.send_goal(self._message, feedback_cb=show)
-
     def _is_unheard(self):
         """A node that began and went between two looks never says anything of the goal."""
         waits = self._handle.get_comm_state() == actionlib.CommState.WAITING_FOR_GOAL_ACK
@@ -180,7 +215,7 @@ class Goal:
                 self._resends -= 1
                 try:
                     self._fleet.find_server()
-                    return self._send()
+                    return self.send()
                 except NoAnswer as error:
                     lost += ": %s" % error
         self._answer = Answer(state, result, time.monotonic() - self._began, lost)
