@@ -76,7 +76,7 @@ TEST(PlanMeanwhile, IsSeenUntilTheOneThatWasChosenIsThere) {
 }
 
 TEST(PlanMeanwhile, IsThereWhenTheOneThatWasChosenGivesUp) {
-  const Seen seen = planAndWatch(twoHalls(40, 4, 150, 1), 2);
+  const Seen seen = planAndWatch(twoHalls(30, 3, 100, 1), 2);
   ASSERT_GE(seen.makespans.size(), 2U) << seen.report.message;
   EXPECT_LE(seen.report.makespan, seen.makespans.front());
   EXPECT_EQ(seen.report.message.rfind("solved by lacam", 0), 0U) << seen.report.message;
