@@ -306,9 +306,6 @@ RestReplanner::RestReplanner(const Instance& instance, const MotionTimes& times,
   if (budget_.expansions == 0) {
     budget_.expansions = std::max(ReplanBudget::kLeastExpansions,
                                   ReplanBudget::kDefaultExpansions * instance.robots());
-    // A state takes a third longer there.
-    const bool is_large = instance.graph().size() > ReplanBudget::kLargeMap;
-    if (is_large) budget_.expansions -= budget_.expansions / 4;
   }
 }
 

@@ -51,8 +51,7 @@ void declareOptions(CommandLine& line) {
   line.offer("replan-expansions", "N",
              "effort of a replan, in states that an ordinary search expands in the time (" +
                  std::to_string(ReplanBudget::kDefaultExpansions) + " a robot, at least " +
-                 std::to_string(ReplanBudget::kLeastExpansions) + "; three quarters on more than " +
-                 std::to_string(ReplanBudget::kLargeMap) + " cells)");
+                 std::to_string(ReplanBudget::kLeastExpansions) + ")");
   line.offer("rings", "NAME",
              "with a release above 0, of robots that rotate: avoid (replanned away) or joint (they "
              "move together) (avoid)");

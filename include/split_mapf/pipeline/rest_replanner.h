@@ -17,13 +17,11 @@ struct ReplanBudget {
   /// States of all searches. All that is done counts as so many of them as take as long: a search
   /// that looks at more neighbours and reaches more places for each state, that may evict, paths
   /// that are taken out and put back, and each visit of the rest.
-  /// 0: kDefaultExpansions a robot, and kLeastExpansions at least; on a map of more than kLargeMap
-  /// vertices, whose steps no processor's nearest caches hold, three quarters of that.
+  /// 0: kDefaultExpansions a robot, and kLeastExpansions at least.
   std::uint64_t expansions = 0;
   std::uint64_t seed = 0;
   static constexpr std::uint64_t kDefaultExpansions = 850;
   static constexpr std::uint64_t kLeastExpansions = 700000;
-  static constexpr std::uint32_t kLargeMap = 16384;
 };
 
 /// What a replan may rely on.
