@@ -203,6 +203,7 @@ std::vector<Cell> drawCells(const Grid& grid, std::vector<Vertex> vertices, std:
 
 GeneratedProblem place(std::shared_ptr<const Grid> grid, std::uint32_t robots,
                        RandomEngine& engine) {
+  if (robots == 0) throw OptionError("robots 0: at least one is needed");
   const std::vector<Vertex> component = largestComponent(grid->graph());
   if (robots > component.size()) {
     throw OptionError(counted(robots, "robot") + ": the largest connected part of this map has " +
@@ -214,10 +215,6 @@ GeneratedProblem place(std::shared_ptr<const Grid> grid, std::uint32_t robots,
   problem.goals = drawCells(*grid, component, robots, engine);
   problem.grid = std::move(grid);
   return problem;
-}
-
-void requireRobots(std::uint32_t robots) {
-  if (robots == 0) throw OptionError("robots 0: at least one is needed");
 }
 
 }  // namespace
@@ -243,14 +240,12 @@ MapKind parseMapKind(const std::string& text) {
 
 GeneratedProblem generateProblem(const GeneratorOptions& options) {
   requireValid(options);
-  requireRobots(options.robots);
   RandomEngine engine(options.seed);
   return place(buildGrid(options, engine), options.robots, engine);
 }
 
 GeneratedProblem drawRobots(std::shared_ptr<const Grid> grid, std::uint32_t robots,
                             std::uint64_t seed) {
-  requireRobots(robots);
   RandomEngine engine(seed);
   return place(std::move(grid), robots, engine);
 }

@@ -9,7 +9,7 @@ namespace {
 constexpr double kSecAStep = 3e-6;
 // Solvers that prove bounds resolve conflicts one by one. What a piece takes grows with steps times
 // robots only roughly: most take a tenth of this and a few many times it. With half of this value
-// long pieces of `ilp` stay at home, with twice it twice as many short ones are asked for.
+// long pieces of `ilp` stay at home, with twice it half as many short ones more are asked for.
 constexpr double kSecAStepAndRobot = 1e-5;
 
 }  // namespace

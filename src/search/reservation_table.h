@@ -60,9 +60,9 @@ class ReservationTable {
   /// word may be asked for.
   std::uint64_t taken(Vertex v, std::uint32_t word) const { return wordOf(bits_, v, word); }
 
-  /// Has the word loaded that taken() will be asked for soon. @pre it is within the table.
+  /// Has the word loaded that taken() will be asked for soon.
   void prefetch(Vertex v, std::uint32_t word) const {
-    __builtin_prefetch(bits_.data() + std::size_t{v} * words_ + word);
+    if (word < words_) __builtin_prefetch(bits_.data() + std::size_t{v} * words_ + word);
   }
   bool isTaken(Vertex v, std::uint32_t t) const { return (taken(v, t / 64) >> (t % 64) & 1U) != 0; }
   /// The first step after `t` at which somebody is at `v`; last + 1 if nobody is until step `last`.

@@ -19,7 +19,6 @@ constexpr int kPairPasses = 1;
 // Robots that are asked to make room, one after the other, for one that would turn less. More gain
 // little, and most time goes into those that cannot.
 constexpr std::size_t kMostAsked = 2;
-constexpr std::uint32_t kNobody = 0xffffffffU;
 // Robots that are searched for side by side; not the number of threads, as the plan must not depend
 // on that.
 constexpr std::uint32_t kBatch = 32;
@@ -65,7 +64,7 @@ class Straightening {
   };
   /// A path with fewer turns, and the path of the robot that makes room for it.
   struct Pair {
-    std::uint32_t other = kNobody;
+    std::uint32_t other = 0;
     Path path;
     Path path_of_other;
   };

@@ -30,7 +30,7 @@ std::optional<PieceAddress> addressOf(const std::string& subject);
 /// Whether a message to a client says a place in the queue, and is no answer.
 bool saysPlace(const std::string& subject);
 
-/// Of all answers to a client, and all places; of what it says to workers.
+/// Of all answers to a client, and all places; of what it says to workers; `*`: of all clients.
 std::string messagesTo(const std::string& client);
 std::string signsOf(const std::string& client);
 /// All pieces that this build solves.

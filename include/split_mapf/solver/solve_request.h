@@ -33,8 +33,8 @@ struct SolveRequest {
   /// Gets each better plan on the way; the answer's own may be the last of them. Null: nobody asks.
   PlanSink on_better;
   /// Called once where the search takes several times as long as it mostly does, from the thread
-  /// that it runs on; then it goes on, and its answer is the same. Of solvers that place robots
-  /// one by one, only `conflict_optimizer` calls it. Null: nobody asks.
+  /// that it runs on; then it goes on, and its answer is the same. Only `conflict_optimizer` calls
+  /// it. Null: nobody asks.
   std::function<void()> on_late;
 };
 

@@ -163,7 +163,7 @@ class Fleet:
 
 
 class Goal:
-    """A goal that is sent once."""
+    """A goal of Fleet.send_goal()."""
 
     def __init__(self, fleet, client, message, progress):
         self._fleet, self._client = fleet, client
@@ -176,7 +176,7 @@ class Goal:
         self._sent = self._began
 
     def send(self):
-        """Sends it. Ctrl-C meanwhile is heard once it is on its way."""
+        """For Fleet.send_goal(). Ctrl-C meanwhile is heard once the goal is on its way."""
         show = self._progress and (lambda _, feedback: self._progress(feedback))
         self._sent = time.monotonic()
         with _interrupted_later():
