@@ -16,3 +16,15 @@ endif()
 function(split_mapf_compile_options target)
   target_compile_options(${target} PRIVATE ${SPLIT_MAPF_WARNINGS})
 endfunction()
+
+include(CheckCXXCompilerFlag)
+check_cxx_compiler_flag(-fno-semantic-interposition SPLIT_MAPF_HAS_OWN_CALLS)
+
+# Has a library call its own functions straight, so that the compiler can put small ones in their place:
+# searches consist of them, and without this each of their calls could be led elsewhere by another library.
+function(split_mapf_call_own_functions target)
+  if(SPLIT_MAPF_HAS_OWN_CALLS AND NOT APPLE AND NOT SPLIT_MAPF_SANITIZE)
+    target_compile_options(${target} PRIVATE -fno-semantic-interposition)
+    target_link_options(${target} PRIVATE -Wl,-Bsymbolic-functions)
+  endif()
+endfunction()

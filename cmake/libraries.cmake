@@ -24,6 +24,7 @@ if(GIF_FOUND)
   target_link_libraries(split_mapf_core PRIVATE GIF::GIF)
 endif()
 split_mapf_compile_options(split_mapf_core)
+split_mapf_call_own_functions(split_mapf_core)
 
 include(cmake/ilp.cmake)
 include(cmake/workers.cmake)
