@@ -1,23 +1,60 @@
 #include "search/straight_search.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 namespace split_mapf {
 
-HeadingGraph::HeadingGraph(const Grid& grid)
-    : grid_(grid), next_(4 * std::size_t{grid.size()}, kNoVertex) {
+HeadingGraph::HeadingGraph(const Grid& grid) : places_(grid.size()) {
   for (Vertex v = 0; v < grid.size(); ++v) {
     const Cell at = grid.cellOf(v);
+    Place& place = places_[v];
+    place.x = static_cast<std::int16_t>(at.x);
+    place.y = static_cast<std::int16_t>(at.y);
     for (const Vertex to : grid.graph().neighbours(v)) {
       const Cell cell = grid.cellOf(to);
       const bool straight = (cell.x == at.x) != (cell.y == at.y);
       const std::size_t heading = cell.x > at.x ? 0 : (cell.y > at.y ? 1 : (cell.x < at.x ? 2 : 3));
-      Vertex& next = next_[4 * std::size_t{v} + heading];
+      Vertex& next = place.next[heading];
       valid_ = valid_ && straight && next == kNoVertex;
       next = to;
     }
   }
+  if (!valid_) return;
+  // Vertices are numbered by rows and columns.
+  for (Vertex v = 0; v < grid.size(); ++v) {
+    for (const Heading heading : {Heading{2}, Heading{3}}) measureRun(v, heading);
+  }
+  for (Vertex v = grid.size(); v-- > 0;) {
+    for (const Heading heading : {Heading{0}, Heading{1}}) measureRun(v, heading);
+  }
+}
+
+/// @pre it is known of the next vertex.
+void HeadingGraph::measureRun(Vertex v, Heading heading) {
+  Place& place = places_[v];
+  if (place.next[heading] == kNoVertex) return;
+  const Place& next = places_[place.next[heading]];
+  const int cells = std::abs(next.x - place.x) + std::abs(next.y - place.y);
+  place.run[heading] = static_cast<std::uint16_t>(next.run[heading] + cells);
+}
+
+std::array<std::uint8_t, 4> HeadingGraph::turnsLeft(Vertex v, Vertex goal) const {
+  const Place& at = places_[v];
+  const Place& end = places_[goal];
+  const int east = end.x - at.x;
+  const int south = end.y - at.y;
+  // A goal straight ahead takes no turn, one that is met from a corner straight ahead takes one.
+  const auto left = [&](Heading heading, int along, int across, Heading back) -> std::uint8_t {
+    const bool comes_to_corner = along >= 0 && at.run[heading] >= along;
+    if (!comes_to_corner || end.run[back] < std::abs(across)) return 2;
+    return across == 0 ? 0 : 1;
+  };
+  const Heading north_or_south = south > 0 ? 3 : 1;  // from the goal to the row of `v`
+  const Heading west_or_east = east > 0 ? 2 : 0;
+  return {left(0, east, south, north_or_south), left(1, south, east, west_or_east),
+          left(2, -east, south, north_or_south), left(3, -south, east, west_or_east)};
 }
 
 Heading HeadingGraph::headingOf(Vertex from, Vertex to) const {
@@ -28,15 +65,16 @@ Heading HeadingGraph::headingOf(Vertex from, Vertex to) const {
 }
 
 StraightSearch::StraightSearch(const HeadingGraph& graph, std::uint32_t vertices)
-    : graph_(graph), slot_(vertices, 0), stamp_(vertices, 0) {}
+    : graph_(graph), marks_(vertices) {}
 
 /// A robot that may lose more steps than there are bits keeps its path until it has lost some.
-void StraightSearch::begin(const Path& own, std::uint32_t more) {
+void StraightSearch::begin(bool as_many) {
+  const Path& own = *own_;
   ++search_;
   met_.clear();
+  last_records_.clear();
   records_.clear();
   arrival_ = static_cast<std::uint32_t>(own.size() - 1);
-  goal_ = graph_.cellOf(distances_->goal());
   begin_ = 0;
   first_heading_ = kNoHeading;
   const auto loss = [&](std::uint32_t t) { return arrival_ - t - (*distances_)(own[t]); };
@@ -47,7 +85,7 @@ void StraightSearch::begin(const Path& own, std::uint32_t more) {
   }
   loss_ = loss(begin_);
   mask_ = ~std::uint64_t{0} >> (63 - loss_);
-  most_turns_ = more;
+  most_turns_ = as_many ? 1 : 0;
   Heading heading = first_heading_;
   for (std::uint32_t t = begin_ + 1; t < own.size(); ++t) {
     if (own[t] == own[t - 1]) continue;
@@ -57,6 +95,18 @@ void StraightSearch::begin(const Path& own, std::uint32_t more) {
   }
   if (levels_.size() < most_turns_ + std::size_t{3}) levels_.resize(most_turns_ + std::size_t{3});
   for (std::vector<Item>& level : levels_) level.clear();
+  for (const Vertex v : own) marks_[v].own_in = search_;
+}
+
+/// The bits of the steps at which the robot is at `v` on its own path.
+std::uint64_t StraightSearch::ownBits(Vertex v, std::int32_t base) const {
+  std::uint64_t bits = 0;
+  const std::uint32_t before = base < 0 ? static_cast<std::uint32_t>(-base) : 0;
+  for (std::uint32_t bit = before; bit <= loss_ + 1; ++bit) {
+    const auto t = static_cast<std::uint32_t>(base + static_cast<std::int32_t>(bit));
+    if (positionAt(*own_, t) == v) bits |= std::uint64_t{1} << bit;
+  }
+  return bits;
 }
 
 std::uint64_t StraightSearch::freeBits(Vertex v, std::int32_t base) const {
@@ -69,33 +119,24 @@ std::uint64_t StraightSearch::freeBits(Vertex v, std::int32_t base) const {
 }
 
 std::uint32_t StraightSearch::meet(Vertex v) {
-  if (stamp_[v] == search_) return slot_[v];
-  stamp_[v] = search_;
-  slot_[v] = static_cast<std::uint32_t>(met_.size());
-  Met met;
+  Mark& mark = marks_[v];
+  if (mark.met_in == search_) return mark.met;
+  mark.met_in = search_;
+  mark.met = static_cast<std::uint32_t>(met_.size());
+  Met& met = met_.emplace_back();
   met.vertex = v;
   met.base =
       static_cast<std::int32_t>(arrival_ - loss_) - static_cast<std::int32_t>((*distances_)(v));
   met.free = freeBits(v, met.base);
-  const Cell cell = graph_.cellOf(v);
-  met.east = goal_.x - cell.x;
-  met.south = goal_.y - cell.y;
-  met_.push_back(met);
-  return slot_[v];
-}
-
-/// How many it takes at least, on a grid without obstacles.
-std::uint32_t StraightSearch::turnsLeft(const Met& met, Heading heading) const {
-  if (heading == kNoHeading) return met.east != 0 && met.south != 0 ? 1 : 0;
-  const std::int32_t along = heading % 2 == 0 ? met.east : met.south;
-  const std::int32_t across = heading % 2 == 0 ? met.south : met.east;
-  if (heading < 2 ? along < 0 : along > 0) return 2;
-  return across != 0 ? 1 : 0;
+  if (mark.own_in == search_) met.free |= ownBits(v, met.base);
+  met.turns_left = graph_.turnsLeft(v, distances_->goal());
+  last_records_.push_back({kNone, kNone, kNone, kNone});
+  return mark.met;
 }
 
 void StraightSearch::push(const Item& item) {
   if (item.bits == 0) return;
-  const std::uint32_t turns = item.turns + turnsLeft(met_[item.met], item.heading);
+  const std::uint32_t turns = item.turns + met_[item.met].turns_left[item.heading];
   if (turns < most_turns_) levels_[turns].push_back(item);
 }
 
@@ -103,103 +144,142 @@ void StraightSearch::push(const Item& item) {
 std::uint64_t StraightSearch::move(const Met& from, const Met& to, std::uint64_t bits) const {
   const std::uint32_t shift = shiftOf(from, to);
   std::uint64_t moved = (bits << shift) & to.free & mask_;
-  // Only where somebody comes to `from` right then may it be who stood at `to`.
-  std::uint64_t doubtful = ((bits & ~(from.free >> 1U)) << shift) & moved;
+  // Only where somebody comes to `from` right then who may have stood at `to`.
+  const std::uint64_t comes = (bits & ~(from.free >> 1U)) << shift;
+  std::uint64_t doubtful = comes & (~to.free << 1U | 1U) & moved;
   while (doubtful != 0) {
     const std::uint64_t bit = doubtful & (0 - doubtful);
     doubtful ^= bit;
     const auto step =
         static_cast<std::uint32_t>(to.base + static_cast<std::int32_t>(__builtin_ctzll(bit)));
-    if (placed_->oncoming(from.vertex, to.vertex, step) != nullptr) moved ^= bit;
+    const Stay* const stay = placed_->oncoming(from.vertex, to.vertex, step);
+    if (stay != nullptr && stay->robot != robot_) moved ^= bit;
   }
   return moved;
 }
 
+void StraightSearch::moveAhead(const Item& item, std::uint64_t bits) {
+  const Vertex next = graph_.next(met_[item.met].vertex, item.heading);
+  if (next == kNoVertex) return;
+  const std::uint32_t to = meet(next);
+  const std::uint64_t moved = move(met_[item.met], met_[to], bits);
+  push({moved & ~met_[to].reached[item.heading], to, item.turns, item.heading, false});
+}
+
+/// Right where it is, in no time.
+void StraightSearch::turn(const Item& item, std::uint64_t bits) {
+  const Met& met = met_[item.met];
+  for (const Heading by : {Heading{1}, Heading{2}, Heading{3}}) {
+    const auto heading = static_cast<Heading>((item.heading + by) % 4U);
+    const std::uint64_t news = bits & ~met.reached[heading];
+    if (news == 0) continue;
+    const std::uint32_t turns = item.turns + turnsBetween(item.heading, heading);
+    const std::uint32_t level = turns + met.turns_left[heading];
+    if (level >= most_turns_ || graph_.next(met.vertex, heading) == kNoVertex) continue;
+    levels_[level].push_back({news, item.met, turns, heading, true});
+  }
+}
+
 /// @return whether the robot is at its goal at its arrival.
 bool StraightSearch::expand(const Item& item) {
-  const std::uint64_t free = met_[item.met].free & mask_;
-  std::uint64_t bits = item.bits;
-  // It may wait as long as nobody comes: fills runs of free steps upwards.
-  for (std::uint64_t more = bits; more != 0;) {
-    more = (more << 1U) & free & ~bits;
-    bits |= more;
-  }
   Met& met = met_[item.met];
-  bits &= ~met.reached[item.heading];
+  const std::uint64_t free = met.free & mask_;
+  // It may wait as long as nobody comes: the sum carries each bit through the free ones above it.
+  const std::uint64_t stays = ((free + item.bits) ^ free) & free;
+  const std::uint64_t bits = (stays | item.bits) & ~met.reached[item.heading];
   if (bits == 0) return false;
   met.reached[item.heading] |= bits;
-  records_.push_back({bits, item.turns, met.records[item.heading]});
-  met.records[item.heading] = static_cast<std::uint32_t>(records_.size() - 1);
-  const Vertex v = met.vertex;
-  if (v == distances_->goal() && (bits >> loss_ & 1U) != 0) return true;
+  std::uint32_t& last_record = last_records_[item.met][item.heading];
+  records_.push_back({bits, item.turns, last_record});
+  last_record = static_cast<std::uint32_t>(records_.size() - 1);
+  if (met.vertex == distances_->goal() && (bits >> loss_ & 1U) != 0) return true;
+  // Who has just turned does not turn again.
+  if (!item.turned) turn(item, bits);
+  moveAhead(item, bits);
+  return false;
+}
+
+std::uint32_t StraightSearch::turnsAt(const State& state) const {
+  std::uint32_t r = last_records_[state.met][state.heading];
+  while (r != kNone && (records_[r].bits >> state.bit & 1U) == 0) r = records_[r].next;
+  return r == kNone ? kNone : records_[r].turns;
+}
+
+bool StraightSearch::comeStraight(State& state) const {
+  const Met& at = met_[state.met];
+  const Vertex before = graph_.next(at.vertex, (state.heading + 2) % 4);
+  if (before == kNoVertex || marks_[before].met_in != search_) return false;
+  const Met& from = met_[marks_[before].met];
+  const std::uint32_t shift = shiftOf(from, at);
+  if (state.bit < shift) return false;
+  const State last = {marks_[before].met, state.bit - shift, state.heading};
+  const bool may =
+      turnsAt(last) <= turnsAt(state) && move(from, at, std::uint64_t{1} << last.bit) != 0;
+  if (may) state = last;
+  return may;
+}
+
+bool StraightSearch::haveWaited(State& state) const {
+  const State last = {state.met, state.bit - 1, state.heading};
+  const bool may = state.bit > 0 && turnsAt(last) <= turnsAt(state);
+  if (may) state = last;
+  return may;
+}
+
+bool StraightSearch::haveTurned(State& state) const {
+  const std::uint32_t turns = turnsAt(state);
   for (Heading heading = 0; heading < 4; ++heading) {
-    const Vertex next = graph_.next(v, heading);
-    if (next == kNoVertex) continue;
-    const std::uint32_t sum = item.turns + turnsBetween(item.heading, heading);
-    if (sum >= most_turns_) continue;
-    const std::uint32_t to = meet(next);
-    const std::uint64_t moved = move(met_[item.met], met_[to], bits);
-    push({to, sum, moved & ~met_[to].reached[heading], heading});
+    const State last = {state.met, state.bit, heading};
+    const std::uint32_t then = heading == state.heading ? kNone : turnsAt(last);
+    if (then == kNone || then + turnsBetween(heading, state.heading) > turns) continue;
+    state = last;
+    return true;
   }
   return false;
 }
 
-std::uint32_t StraightSearch::turnsAt(const Met& met, Heading heading, std::uint32_t bit) const {
-  for (std::uint32_t r = met.records[heading]; r != kNone; r = records_[r].next) {
-    if ((records_[r].bits >> bit & 1U) != 0) return records_[r].turns;
-  }
-  return kNone;
-}
-
 /// From where and with which heading a state was reached, a step before.
-bool StraightSearch::stepBack(std::uint32_t& met, Heading& heading, std::uint32_t& bit) const {
-  const Met& at = met_[met];
-  const std::uint32_t turns = turnsAt(at, heading, bit);
-  // Moves first, so that waits lie early: there the fewest others come by.
-  const Vertex before =
-      heading == kNoHeading ? kNoVertex : graph_.next(at.vertex, (heading + 2) % 4);
-  if (before != kNoVertex && stamp_[before] == search_) {
-    const Met& from = met_[slot_[before]];
-    const std::uint32_t shift = shiftOf(from, at);
-    const bool may = bit >= shift && move(from, at, std::uint64_t{1} << (bit - shift)) != 0;
-    for (Heading last = 0; may && last <= kNoHeading; ++last) {
-      const std::uint32_t then = turnsAt(from, last, bit - shift);
-      if (then == kNone || then + turnsBetween(last, heading) > turns) continue;
-      met = slot_[before];
-      heading = last;
-      bit -= shift;
-      return true;
+bool StraightSearch::stepBack(State& state, TurnsLie lie) const {
+  if (lie == TurnsLie::kLate) {
+    while (haveTurned(state)) {
     }
+    return comeStraight(state) || haveWaited(state);
   }
-  if (bit == 0 || turnsAt(at, heading, bit - 1) > turns) return false;
-  --bit;
-  return true;
+  do {
+    if (comeStraight(state) || haveWaited(state)) return true;
+  } while (haveTurned(state));
+  return false;
 }
 
-Path StraightSearch::pathTo(const Path& own, Heading heading) const {
-  Path path = own;
-  std::uint32_t met = slot_[distances_->goal()];
-  std::uint32_t bit = loss_;
+Path StraightSearch::pathTo(Heading heading, TurnsLie lie) const {
+  Path path = *own_;
+  State state = {marks_[distances_->goal()].met, loss_, heading};
   for (std::uint32_t t = arrival_; t > begin_; --t) {
-    path[t] = met_[met].vertex;
-    if (!stepBack(met, heading, bit)) return {};
+    path[t] = met_[state.met].vertex;
+    if (!stepBack(state, lie)) return {};
   }
   while (path.size() > 1 && path[path.size() - 2] == path.back()) path.pop_back();
   return path;
 }
 
-Path StraightSearch::search(const Path& own, const DistanceTable& distances,
-                            const ReservationTable& placed, std::uint32_t more) {
+Path StraightSearch::search(std::uint32_t robot, const Path& own, const DistanceTable& distances,
+                            const ReservationTable& placed, bool as_many, TurnsLie lie) {
+  robot_ = robot;
+  own_ = &own;
   distances_ = &distances;
   placed_ = &placed;
-  begin(own, more);
+  begin(as_many);
   if (most_turns_ == 0) return {};
-  push({meet(own[begin_]), 0, 1, first_heading_});
+  const std::uint32_t first = meet(own[begin_]);
+  for (Heading heading = 0; heading < 4; ++heading) {
+    if (first_heading_ != kNoHeading && heading != first_heading_) continue;
+    push({1, first, 0, heading, first_heading_ == kNoHeading});
+  }
   for (std::uint32_t turns = 0; turns < most_turns_; ++turns) {
     while (!levels_[turns].empty()) {
       const Item item = levels_[turns].back();
       levels_[turns].pop_back();
-      if (expand(item)) return pathTo(own, item.heading);
+      if (expand(item)) return pathTo(item.heading, lie);
     }
   }
   return {};
