@@ -95,6 +95,7 @@ Cut withoutRings(const ExecutionGraph& graph, Cut cut) {
 Precedence restBehind(const ExecutionGraph& graph, const Cut& cut) {
   const Precedence& order = graph.precedence();
   std::vector<Visit> visits;
+  visits.reserve(order.size());
   for (std::uint32_t robot = 0; robot < order.robots(); ++robot) {
     for (VisitId v = cut[robot]; v <= order.last(robot); ++v) visits.push_back(order[v]);
   }
@@ -110,6 +111,7 @@ ExecutionGraph concatenate(const ExecutionGraph& graph, const Cut& cut, const Pl
   };
   const std::uint32_t begin = steps.empty() ? 0 : rank(steps.back());
   std::vector<Visit> visits;
+  visits.reserve(order.size());
   for (std::uint32_t robot = 0; robot < order.robots(); ++robot) {
     for (VisitId v = graph.at(robot); v <= cut[robot]; ++v) {
       visits.push_back({order[v].vertex, robot, rank(order[v].step), kNoVisit, kNoVisit});

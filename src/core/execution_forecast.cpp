@@ -52,7 +52,7 @@ class ForecastRun {
         times_(times),
         turns_(turns),
         stands_(stands),
-        settled_(order_.size(), false) {
+        settled_(order_.size(), kOpen) {
     result_.begins.assign(order_.size(), 0);
     result_.ends.assign(order_.size(), 0);
   }
@@ -60,22 +60,24 @@ class ForecastRun {
   Forecast run() {
     for (std::uint32_t robot = 0; robot < order_.robots(); ++robot) settleThePast(robot);
     for (const VisitId event : order_.inPlanOrder()) {
-      if (!settled_[event]) settleChain(event);
+      if (settled_[event] == kOpen) settleChain(event);
     }
     return std::move(result_);
   }
 
  private:
+  enum Settled : std::uint8_t { kOpen, kSettled, kUnderWay };
+
   std::uint32_t standOf(std::uint32_t robot) const { return stands_.empty() ? 0 : stands_[robot]; }
 
   void settleThePast(std::uint32_t robot) {
     const VisitId at = graph_.at(robot);
-    for (VisitId v = order_.first(robot); v <= at; ++v) settled_[v] = true;
+    for (VisitId v = order_.first(robot); v <= at; ++v) settled_[v] = kSettled;
     if (graph_.isDone(robot) || graph_.progress(robot) <= 0) return;
     const double left = (1 - static_cast<double>(graph_.progress(robot))) * times_.move;
     result_.ends[at + 1] =
         standOf(robot) + static_cast<std::uint32_t>(std::ceil(left - kRounding * times_.move));
-    settled_[at + 1] = true;
+    settled_[at + 1] = kUnderWay;
   }
 
   /// The soonest begin that the robot itself allows.
@@ -90,27 +92,23 @@ class ForecastRun {
   std::uint32_t releaseOf(VisitId event) const {
     std::uint32_t release = 0;
     graph_.forEachAwaited(event, [&](VisitId awaited, double fraction) {
+      const std::uint32_t ends = result_.ends[awaited];
+      if (ends <= release) return;  // of the past: 0
       // In a convoy the follower keeps behind even one that has begun to leave.
-      const bool convoy = graph_.release() <= 0 && isUnderWay(awaited);
-      if (graph_.hasDone(awaited, fraction) && !convoy) return;
+      const bool may_have_left = settled_[awaited] == kUnderWay && graph_.release() > 0;
+      if (may_have_left && graph_.hasDone(awaited, fraction)) return;
       // Counted from the end of its move: before, it may start slowly, or stand.
       const auto ticks = static_cast<std::uint32_t>(std::ceil(fraction * times_.move - kRounding));
       const std::uint32_t after = times_.move - ticks;
-      const std::uint32_t ends = result_.ends[awaited];
       release = std::max(release, ends > after ? ends - after : 0);
     });
     return release;
   }
 
-  bool isUnderWay(VisitId event) const {
-    const std::uint32_t robot = order_[event].robot;
-    return event == graph_.at(robot) + 1 && graph_.progress(robot) > 0;
-  }
-
   VisitId leaderOf(VisitId event) const {
     const VisitId awaited = order_.awaits(event);
-    const bool same = awaited != kNoVisit && order_[awaited].step == order_[event].step;
-    return same && !settled_[awaited] ? awaited : kNoVisit;
+    if (awaited == kNoVisit || settled_[awaited] != kOpen) return kNoVisit;
+    return order_[awaited].step == order_[event].step ? awaited : kNoVisit;
   }
 
   void settleChain(VisitId event) {
@@ -135,11 +133,17 @@ class ForecastRun {
     for (const VisitId event : chain_) settle(event, begin);
   }
 
-  void settle(VisitId event, std::uint32_t begin) {
+  /// What it loses by starting from rest.
+  std::uint32_t startOf(VisitId event, std::uint32_t begin) const {
+    if (times_.start == 0) return 0;
     const bool rests = begin > result_.ends[event - 1] || order_.isFirst(event - 1);
+    return rests ? times_.start : 0;
+  }
+
+  void settle(VisitId event, std::uint32_t begin) {
     result_.begins[event] = begin;
-    result_.ends[event] = begin + (rests ? times_.start : 0) + times_.move;
-    settled_[event] = true;
+    result_.ends[event] = begin + startOf(event, begin) + times_.move;
+    settled_[event] = kSettled;
   }
 
   static constexpr double kRounding = 1e-6;
@@ -149,7 +153,7 @@ class ForecastRun {
   const MotionTimes& times_;
   const std::vector<std::uint8_t>& turns_;
   const std::vector<std::uint32_t>& stands_;
-  std::vector<bool> settled_;
+  std::vector<Settled> settled_;
   std::vector<VisitId> chain_;
   Forecast result_;
 };

@@ -20,7 +20,7 @@ struct ReplanBudget {
   /// 0: kDefaultExpansions a robot, and kLeastExpansions at least.
   std::uint64_t expansions = 0;
   std::uint64_t seed = 0;
-  static constexpr std::uint64_t kDefaultExpansions = 850;
+  static constexpr std::uint64_t kDefaultExpansions = 800;
   static constexpr std::uint64_t kLeastExpansions = 700000;
 };
 
