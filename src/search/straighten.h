@@ -23,9 +23,9 @@ std::uint32_t countTurns(const Grid& grid, const Path& path);
 /// at in one go. States are met by the turns behind and at least ahead of them (A*): two where the
 /// goal is neither straight ahead nor seen from a corner straight ahead. Robots are searched for
 /// side by side, 32 at a time; a robot that meets another of its batch on that one's new path is
-/// searched for again. Ours. Deterministic but for the deadline. Cost: 0.5 to 2 ms of CPU a robot
-/// on large maps; memory: a table of the plan, and 12 bytes a vertex for each thread. The plan does
-/// not depend on the threads.
+/// searched for again. Ours. Deterministic but for the deadline, and the plan does not depend on
+/// the threads. Cost: 0.5 to 2 ms of CPU a robot on large maps; memory: a table of the plan, 32
+/// bytes a vertex, and 12 more for each thread.
 /// @pre the plan is valid, its paths end at their arrivals.
 Plan straighten(const Instance& instance, Plan plan, const LentThreads& threads,
                 const Deadline& deadline);
