@@ -22,10 +22,21 @@ class Growth {
     const VisitId last = promised_[robot];
     if (last >= order_.last(robot) || last - graph_.at(robot) >= rule_.ahead) return false;
     const Ring* const ring = graph_.ringOf(last + 1);
-    if (!graph_.isReleased(last + 1)) return false;
-    if (ring == nullptr) return isOpen(last + 1);
-    return rule_.joint_rings && std::all_of(ring->begin(), ring->end(),
-                                            [this](VisitId member) { return isOpen(member); });
+    if (ring == nullptr) return hasNobodyBefore(last + 1) && isOpen(last + 1);
+    return graph_.isReleased(last + 1) && rule_.joint_rings &&
+           std::all_of(ring->begin(), ring->end(),
+                       [this](VisitId member) { return isOpen(member); });
+  }
+
+  /// A robot is not in its own way: it may come back to a vertex before it is seen to have left it,
+  /// and where nobody has seen it for long it may have done so.
+  bool hasNobodyBefore(VisitId event) const {
+    bool nobody = true;
+    graph_.forEachAwaited(event, [&](VisitId awaited, double fraction) {
+      const bool own = order_[awaited].robot == order_[event].robot;
+      nobody = nobody && (own || graph_.hasDone(awaited, fraction));
+    });
+    return nobody;
   }
 
   bool isOpen(VisitId event) const {

@@ -188,6 +188,12 @@ TEST(FleetRuns, GoRoundWhereAllGoodPlansRotate) {
   takeUpAgain(run);
 }
 
+TEST(FleetRuns, KeepOffWhoDiedUnseenBehindACellToWhichItCameBack) {
+  // Silent when the second conductor comes, two cells behind the one that it is known to have left.
+  Drive run(701040);
+  takeUpAgain(run);
+}
+
 TEST(FleetRuns, LeadAroundBlockedCellsAndPausedRobots) {
   forSeeds(40, [](Drive& run) {
     FleetWorld& world = run.world;
