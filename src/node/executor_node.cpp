@@ -18,8 +18,8 @@
 
 namespace {
 
-// One for reports, one for all else.
-constexpr std::uint32_t kCallbackThreads = 2;
+// The server hears reports in a thread of its own.
+constexpr std::uint32_t kCallbackThreads = 1;
 
 /// Beside ROS's logs, named after the node.
 std::string defaultFile() {

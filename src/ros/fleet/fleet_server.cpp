@@ -67,8 +67,10 @@ FleetServer::FleetServer(const ros::NodeHandle& node, const ros::NodeHandle& pri
       "routes", kQueue,
       [this](const ros::SingleSubscriberPublisher& subscriber) { welcome(subscriber); });
   state_ = own.advertise<FleetState>("state", 1, true);
-  progress_ = node_.subscribe("progress", kQueue, &FleetServer::takeProgress, this,
-                              ros::TransportHints().tcpNoDelay());
+  ros::NodeHandle reports(node);
+  reports.setCallbackQueue(&reports_);
+  progress_ = reports.subscribe("progress", kQueue, &FleetServer::takeProgress, this,
+                                ros::TransportHints().tcpNoDelay());
   services_ = {own.advertiseService("block_cells", &FleetServer::blockCells, this),
                own.advertiseService("remove_robot", &FleetServer::removeRobot, this),
                own.advertiseService("add_robot", &FleetServer::addRobot, this),
@@ -85,6 +87,7 @@ FleetServer::FleetServer(const ros::NodeHandle& node, const ros::NodeHandle& pri
       own, [this](const MoveAction::Goal& goal) { takeMove(goal); },
       [this](const MoveAction::Goal& goal) { takeMoveCancel(goal); });
   move_->start();
+  hears_.start();
 }
 
 FleetServer::~FleetServer() {

@@ -12,9 +12,11 @@
 #include <vector>
 
 #include <actionlib/server/action_server.h>
+#include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <ros/service_server.h>
+#include <ros/spinner.h>
 #include <ros/subscriber.h>
 #include <ros/wall_timer.h>
 #include <split_mapf/AddRobot.h>
@@ -271,6 +273,8 @@ class FleetServer {
   std::map<std::string, ros::Publisher> routes_;  ///< by ROS name
   ros::Publisher all_routes_;
   ros::Publisher state_;
+  /// Of reports: two threads of one queue would wait for each other at each of them.
+  ros::CallbackQueue reports_;
   ros::Subscriber progress_;
   std::vector<ros::ServiceServer> services_;
   ros::WallTimer timer_;
@@ -281,6 +285,7 @@ class FleetServer {
   bool replans_ = false;
   std::unique_ptr<Server> server_;
   std::unique_ptr<MoveAction> move_;
+  ros::AsyncSpinner hears_{1, &reports_};  ///< last: ends before what it needs
 };
 
 }  // namespace split_mapf
