@@ -93,7 +93,7 @@ class ForecastRun {
     std::uint32_t release = 0;
     graph_.forEachAwaited(event, [&](VisitId awaited, double fraction) {
       const std::uint32_t ends = result_.ends[awaited];
-      if (ends <= release) return;  // of the past: 0
+      if (ends <= release) return;  // as all of the past, at 0
       // In a convoy the follower keeps behind even one that has begun to leave.
       const bool may_have_left = settled_[awaited] == kUnderWay && graph_.release() > 0;
       if (may_have_left && graph_.hasDone(awaited, fraction)) return;

@@ -96,6 +96,12 @@ class StraightSearch {
     Heading heading;
     bool turned;  // right here
   };
+  /// A state at one step, on the way back.
+  struct State {
+    std::uint32_t met;
+    std::uint32_t bit;
+    Heading heading;
+  };
 
   void begin(bool as_many);
   std::uint32_t meet(Vertex v);
@@ -106,12 +112,6 @@ class StraightSearch {
   void turn(const Item& item, std::uint64_t bits);
   std::uint64_t move(const Met& from, const Met& to, std::uint64_t bits) const;
   void push(const Item& item);
-  /// A state at one step, on the way back.
-  struct State {
-    std::uint32_t met;
-    std::uint32_t bit;
-    Heading heading;
-  };
   std::uint32_t turnsAt(const State& state) const;
   bool comeStraight(State& state) const;
   bool haveWaited(State& state) const;

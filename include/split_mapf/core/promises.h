@@ -18,8 +18,9 @@ struct PromiseRule {
 };
 
 /// Promises robots what they may do at once: of each its next visits, as long as no robot is before
-/// them there. Promises are never taken back, so another plan goes behind them; as they wait for
-/// nothing but what is done, they are a downward-closed cut. Cost: O(robots and visits promised).
+/// them there; a robot is not in its own way. Promises are never taken back, so another plan goes
+/// behind them; as they wait for nothing but what is done, or promised to the same robot before,
+/// they are a downward-closed cut. Cost: O(robots and visits promised).
 /// @param promised  by robot, grows.
 void growPromises(const ExecutionGraph& graph, const PromiseRule& rule, Cut& promised);
 
