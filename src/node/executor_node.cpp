@@ -18,8 +18,7 @@
 
 namespace {
 
-// One for what takes long, as a plan that is checked, and one for all else; the server hears
-// reports in a thread of its own.
+// One for what takes long, as a plan that is checked, and one for all else.
 constexpr std::uint32_t kCallbackThreads = 2;
 
 /// Beside ROS's logs, named after the node.

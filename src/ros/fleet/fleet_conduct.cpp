@@ -28,8 +28,11 @@ bool isFinite(const geometry_msgs::Point& point) {
 
 }  // namespace
 
+void FleetServer::takeReports() {
+  for (const RobotProgress::ConstPtr& report : reports_.take()) takeProgress(*report);
+}
+
 void FleetServer::takeProgress(const RobotProgress& message) {
-  const Lock lock(mutex_);
   ++counts_.reports;
   const std::string fault = faultOfRobotId(message.robot_id);
   if (!fault.empty()) return countRefused(message, "its robot_id " + fault);
@@ -128,6 +131,7 @@ std::optional<geometry_msgs::Point> FleetServer::poseOnMap(
 
 void FleetServer::tick() {
   const Lock lock(mutex_);
+  takeReports();
   const double time = now();
   if (!fleet_) takeUpAgain(time);
   beginWhenReady(time);

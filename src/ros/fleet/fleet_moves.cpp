@@ -296,6 +296,7 @@ void FleetServer::conductTasks(double now) {
 /// New goals do not wait for the next tick.
 void FleetServer::pulse() {
   const Lock lock(mutex_);
+  takeReports();
   if (!tasks_ || fleet_->isRestoring()) return;
   const double time = now();
   if (tasks_->hasNews()) conductTasks(time);

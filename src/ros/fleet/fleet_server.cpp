@@ -27,7 +27,7 @@ namespace split_mapf {
 namespace {
 
 constexpr double kTickSec = 0.1;
-// Between looks for goals of ~move that are new.
+// Between looks for reports of robots, and for goals of ~move that are new.
 constexpr double kPulseSec = 0.02;
 constexpr std::uint32_t kQueue = 20000;  // messages: two seconds of a thousand robots
 
@@ -59,6 +59,7 @@ FleetServer::FleetServer(const ros::NodeHandle& node, const ros::NodeHandle& pri
       planner_(planner),
       transformer_(transformer),
       node_(node),
+      reports_(node),
       kept_may_exist_(!options.execution_file.empty()),
       stop_(std::make_shared<StopFlag>()),
       hurry_(std::make_shared<StopFlag>()) {
@@ -67,10 +68,6 @@ FleetServer::FleetServer(const ros::NodeHandle& node, const ros::NodeHandle& pri
       "routes", kQueue,
       [this](const ros::SingleSubscriberPublisher& subscriber) { welcome(subscriber); });
   state_ = own.advertise<FleetState>("state", 1, true);
-  ros::NodeHandle reports(node);
-  reports.setCallbackQueue(&reports_);
-  progress_ = reports.subscribe("progress", kQueue, &FleetServer::takeProgress, this,
-                                ros::TransportHints().tcpNoDelay());
   services_ = {own.advertiseService("block_cells", &FleetServer::blockCells, this),
                own.advertiseService("remove_robot", &FleetServer::removeRobot, this),
                own.advertiseService("add_robot", &FleetServer::addRobot, this),
@@ -87,7 +84,6 @@ FleetServer::FleetServer(const ros::NodeHandle& node, const ros::NodeHandle& pri
       own, [this](const MoveAction::Goal& goal) { takeMove(goal); },
       [this](const MoveAction::Goal& goal) { takeMoveCancel(goal); });
   move_->start();
-  hears_.start();
 }
 
 FleetServer::~FleetServer() {

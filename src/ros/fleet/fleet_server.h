@@ -9,15 +9,13 @@
 #include <string>
 #include <thread>
 #include <tuple>
+#include <unordered_map>
 #include <vector>
 
 #include <actionlib/server/action_server.h>
-#include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <ros/service_server.h>
-#include <ros/spinner.h>
-#include <ros/subscriber.h>
 #include <ros/wall_timer.h>
 #include <split_mapf/AddRobot.h>
 #include <split_mapf/BlockCells.h>
@@ -32,6 +30,7 @@
 #include "ros/fleet/disc_parts.h"
 #include "ros/fleet/move_action.h"
 #include "ros/fleet/move_goals.h"
+#include "ros/fleet/report_inbox.h"
 #include "ros/fleet/rolling_ground.h"
 #include "split_mapf/fleet/fleet_execution.h"
 #include "split_mapf/fleet/fleet_tasks.h"
@@ -161,6 +160,7 @@ class FleetServer {
   void pulse();
 
   // Robots.
+  void takeReports();
   void takeProgress(const RobotProgress& message);
   void locate(Known& known) const;
   std::optional<Cell> placeOf(const geometry_msgs::PoseStamped& pose) const;
@@ -220,6 +220,7 @@ class FleetServer {
   const Planner& planner_;
   const PoseTransformer& transformer_;
   ros::NodeHandle node_;
+  ReportInbox reports_;
 
   mutable std::mutex mutex_;
   std::unique_ptr<FleetExecution> fleet_;
@@ -263,8 +264,8 @@ class FleetServer {
   std::unique_ptr<FleetTasks> tasks_;
   std::unique_ptr<MoveGoals> moves_;
   std::shared_ptr<const nav_msgs::OccupancyGrid> rolls_on_;  ///< the map
-  std::set<std::string> removed_;               ///< robots that join again when they are added only
-  std::map<std::string, std::uint32_t> index_;  ///< of the fleet's robots
+  std::set<std::string> removed_;  ///< robots that join again when they are added only
+  std::unordered_map<std::string, std::uint32_t> index_;  ///< of the fleet's robots
   FleetServerStatus counts_;
   double clock_ = 0;
   ros::Time last_time_;
@@ -273,9 +274,6 @@ class FleetServer {
   std::map<std::string, ros::Publisher> routes_;  ///< by ROS name
   ros::Publisher all_routes_;
   ros::Publisher state_;
-  /// Of reports: two threads of one queue would wait for each other at each of them.
-  ros::CallbackQueue reports_;
-  ros::Subscriber progress_;
   std::vector<ros::ServiceServer> services_;
   ros::WallTimer timer_;
   ros::WallTimer pulse_;
@@ -285,7 +283,6 @@ class FleetServer {
   bool replans_ = false;
   std::unique_ptr<Server> server_;
   std::unique_ptr<MoveAction> move_;
-  ros::AsyncSpinner hears_{1, &reports_};  ///< last: ends before what it needs
 };
 
 }  // namespace split_mapf
