@@ -59,9 +59,9 @@ class ForecastRun {
 
   Forecast run() {
     for (std::uint32_t robot = 0; robot < order_.robots(); ++robot) settleThePast(robot);
-    for (const VisitId event : order_.inPlanOrder()) {
+    order_.forEachInPlanOrder([this](VisitId event) {
       if (settled_[event] == kOpen) settleChain(event);
-    }
+    });
     return std::move(result_);
   }
 

@@ -66,13 +66,13 @@ std::vector<VisitId> Precedence::inPlanOrder() const {
 void Precedence::link(const Deadline& deadline) {
   std::vector<VisitId> latest(vertices_, kNoVisit);
   SparsePoll poll(deadline);
-  for (const VisitId v : inPlanOrder()) {
+  forEachInPlanOrder([&](VisitId v) {
     poll();
     VisitId& before = latest[visits_[v].vertex];
     visits_[v].before = before;
     if (before != kNoVisit) visits_[before].after = v;
     before = v;
-  }
+  });
 }
 
 // An event awaits one other at most and is awaited by one at most, so events of a step that depend
@@ -136,10 +136,10 @@ class EarliestSchedule {
         steps_(precedence.size(), kOpen) {}
 
   std::vector<std::uint32_t> run() {
-    for (const VisitId event : precedence_.inPlanOrder()) {
+    precedence_.forEachInPlanOrder([this](VisitId event) {
       poll_();
       if (steps_[event] == kOpen) settleChain(event);
-    }
+    });
     return std::move(steps_);
   }
 

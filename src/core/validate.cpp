@@ -152,7 +152,7 @@ class RobotChecks {
 
 /// Who stands where at one step: a list of robots a cell, in ascending order. A hash table of the
 /// cells that are taken, whose entries of earlier steps are told by their stamp and count as free,
-/// so that a step costs O(robots) and memory is O(robots), whatever the grid's size.
+/// so that a step costs O(robots there) and memory is O(robots), whatever the grid's size.
 class Occupancy {
  public:
   static constexpr std::uint32_t kNobody = 0xffffffffU;
@@ -163,17 +163,15 @@ class Occupancy {
     entries_.resize(size);
   }
 
-  void fill(const std::vector<Vertex>& positions, std::uint32_t step) {
-    step_ = step;
-    for (auto robot = static_cast<std::uint32_t>(positions.size()); robot-- > 0;) {
-      const Vertex v = positions[robot];
-      if (v == kNoVertex) continue;
-      Entry& entry = entries_[placeOf(v)];
-      next_[robot] = entry.step == step ? entry.first : kNobody;
-      entry = {step, v, robot};
-    }
+  /// Nobody is anywhere at another step.
+  void begin(std::uint32_t step) { step_ = step; }
+  /// @pre begin() was called; lists ascend where robots come in descending order.
+  void add(std::uint32_t robot, Vertex v) {
+    Entry& entry = entries_[placeOf(v)];
+    next_[robot] = entry.step == step_ ? entry.first : kNobody;
+    entry = {step_, v, robot};
   }
-  /// @pre fill() was called.
+  /// @pre begin() was called.
   std::uint32_t firstIn(Vertex v) const {
     const Entry& entry = entries_[placeOf(v)];
     return entry.step == step_ ? entry.first : kNobody;
@@ -199,7 +197,8 @@ class Occupancy {
   std::vector<std::uint32_t> next_;  // robot -> next higher-numbered robot in its cell
 };
 
-/// What is wrong between two robots.
+/// What is wrong between two robots. Robots whose paths have ended cost nothing from then on: steps
+/// are told first whether anything is wrong in them, and looked at in full where something is.
 template <typename Paths>
 class PairChecks {
  public:
@@ -209,24 +208,22 @@ class PairChecks {
         paths_(paths),
         poll_(poll),
         violations_(violations),
+        under_way_(paths.count()),
         before_(paths.count(), kNoVertex),
         now_(paths.count(), kNoVertex),
         occupants_before_(paths.count()),
-        occupants_(paths.count()) {}
+        occupants_(paths.count()),
+        ended_(paths.count()) {
+    for (std::uint32_t i = 0; i < paths.count(); ++i) under_way_[i] = paths.count() - 1 - i;
+    ended_.begin(0);
+  }
 
   void run() {
-    std::uint32_t steps = 0;
-    for (std::uint32_t robot = 0; robot < paths_.count(); ++robot) {
-      steps = std::max(steps, paths_.length(robot));
-    }
-    for (std::uint32_t step = 0; step < steps; ++step) {
+    for (std::uint32_t step = 0; !under_way_.empty(); ++step) {
       advance(step);
-      for (std::uint32_t robot = 0; robot < paths_.count(); ++robot) {
-        poll_();
-        if (now_[robot] == kNoVertex) continue;
-        checkVertex(robot, step);
-        if (step > 0) checkSwap(robot, step);
-      }
+      const bool was_clean = is_clean_;
+      is_clean_ = isClean();
+      if (!is_clean_ || !was_clean) name(step);
     }
   }
 
@@ -234,14 +231,63 @@ class PairChecks {
   void advance(std::uint32_t step) {
     std::swap(before_, now_);
     std::swap(occupants_before_, occupants_);
-    for (std::uint32_t robot = 0; robot < paths_.count(); ++robot) {
-      now_[robot] = step < paths_.length(robot) ? paths_.vertex(robot, step) : before_[robot];
+    occupants_.begin(step);
+    std::size_t left = 0;
+    for (const std::uint32_t robot : under_way_) {
+      poll_();
+      if (step >= paths_.length(robot)) {
+        end(robot);
+        continue;
+      }
+      under_way_[left++] = robot;
+      now_[robot] = paths_.vertex(robot, step);
+      if (now_[robot] != kNoVertex) occupants_.add(robot, now_[robot]);
     }
-    occupants_.fill(now_, step);
+    under_way_.resize(left);
   }
 
-  void checkVertex(std::uint32_t robot, std::uint32_t step) {
-    const std::uint32_t other = occupants_.firstIn(now_[robot]);
+  void end(std::uint32_t robot) {
+    now_[robot] = before_[robot];
+    if (now_[robot] != kNoVertex) ended_.add(robot, now_[robot]);
+  }
+
+  /// Whether nobody who is under way meets anybody. @pre the step before was clean, else more may
+  /// have been where somebody goes than one looks at.
+  bool isClean() const {
+    return std::none_of(under_way_.begin(), under_way_.end(), [this](std::uint32_t robot) {
+      const Vertex v = now_[robot];
+      if (v == kNoVertex) return false;
+      if (occupants_.nextAfter(robot) != Occupancy::kNobody) return true;
+      if (ended_.firstIn(v) != Occupancy::kNobody) return true;
+      if (before_[robot] == kNoVertex || before_[robot] == v) return false;
+      const std::uint32_t other = occupants_before_.firstIn(v);
+      return other != Occupancy::kNobody && other != robot && now_[other] == before_[robot];
+    });
+  }
+
+  /// All that is wrong in a step.
+  void name(std::uint32_t step) {
+    const Occupancy before = everybodyAt(before_);
+    const Occupancy now = everybodyAt(now_);
+    for (std::uint32_t robot = 0; robot < paths_.count(); ++robot) {
+      poll_();
+      if (now_[robot] == kNoVertex) continue;
+      checkVertex(now, robot, step);
+      if (step > 0) checkSwap(before, robot, step);
+    }
+  }
+
+  Occupancy everybodyAt(const std::vector<Vertex>& positions) const {
+    Occupancy occupants(paths_.count());
+    occupants.begin(0);
+    for (auto robot = paths_.count(); robot-- > 0;) {
+      if (positions[robot] != kNoVertex) occupants.add(robot, positions[robot]);
+    }
+    return occupants;
+  }
+
+  void checkVertex(const Occupancy& occupants, std::uint32_t robot, std::uint32_t step) {
+    const std::uint32_t other = occupants.firstIn(now_[robot]);
     if (other == robot || (ended(robot, step) && ended(other, step))) return;
     violations_.push_back({ViolationKind::kVertexConflict, other, robot, step,
                            robotsNamed(other, robot) + ": both in " +
@@ -250,11 +296,11 @@ class PairChecks {
   }
 
   /// Looks for a lower-numbered robot that came from where this one goes, and went where it was.
-  void checkSwap(std::uint32_t robot, std::uint32_t step) {
+  void checkSwap(const Occupancy& occupants_before, std::uint32_t robot, std::uint32_t step) {
     if (before_[robot] == kNoVertex || before_[robot] == now_[robot]) return;
-    std::uint32_t other = occupants_before_.firstIn(now_[robot]);
+    std::uint32_t other = occupants_before.firstIn(now_[robot]);
     while (other < robot && now_[other] != before_[robot])
-      other = occupants_before_.nextAfter(other);
+      other = occupants_before.nextAfter(other);
     if (other >= robot) return;
     violations_.push_back({ViolationKind::kSwapConflict, other, robot, step,
                            robotsNamed(other, robot) + ": exchange the cells " +
@@ -269,10 +315,13 @@ class PairChecks {
   const Paths& paths_;
   SparsePoll& poll_;
   std::vector<Violation>& violations_;
-  std::vector<Vertex> before_;  // robot -> position at the step before
+  std::vector<std::uint32_t> under_way_;  // robots whose paths have not ended, in descending order
+  std::vector<Vertex> before_;            // robot -> position at the step before
   std::vector<Vertex> now_;
-  Occupancy occupants_before_;
+  Occupancy occupants_before_;  // of those under way
   Occupancy occupants_;
+  Occupancy ended_;  // where paths have ended
+  bool is_clean_ = true;
 };
 
 template <typename Paths>

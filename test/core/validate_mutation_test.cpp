@@ -88,6 +88,49 @@ TEST(ValidateProperty, AgreesWithTheRulesOnRandomWalksOfTwoRobots) {
   EXPECT_GT(invalid, 100);
 }
 
+/// Conflicts in the order in which they are told: of each robot, step by step, with the first one
+/// that it shares its cell with, and the first one that it exchanges places with.
+std::vector<Key> conflictsAsTold(const Plan& plan, std::uint32_t steps) {
+  std::vector<Key> told;
+  const auto tellFirst = [&](ViolationKind kind, std::uint32_t robot, std::uint32_t t, auto meets) {
+    std::uint32_t other = 0;
+    while (other < robot && !meets(plan.paths[other])) ++other;
+    const bool lasts = plan.paths[robot].size() > t || plan.paths[other].size() > t;
+    if (other < robot && lasts) told.emplace_back(kind, other, robot, t);
+  };
+  for (std::uint32_t t = 0; t <= steps; ++t) {
+    for (std::uint32_t robot = 0; robot < plan.paths.size(); ++robot) {
+      const Path& own = plan.paths[robot];
+      const Vertex at = positionAt(own, t);
+      tellFirst(ViolationKind::kVertexConflict, robot, t,
+                [&](const Path& path) { return positionAt(path, t) == at; });
+      if (t == 0 || positionAt(own, t - 1) == at) continue;
+      tellFirst(ViolationKind::kSwapConflict, robot, t, [&](const Path& path) {
+        return positionAt(path, t - 1) == at && positionAt(path, t) == positionAt(own, t - 1);
+      });
+    }
+  }
+  return told;
+}
+
+TEST(ValidateProperty, TellsWhatIsWrongInACrowdInOrder) {
+  RandomEngine engine(3);
+  std::size_t told = 0;
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+    const Instance instance = test::crowdedInstance(seed);
+    const Plan plan = randomWalks(instance, engine, 6);
+    std::vector<Key> found;
+    for (const Violation& v : validate(instance, plan)) {
+      const bool of_two =
+          v.kind == ViolationKind::kVertexConflict || v.kind == ViolationKind::kSwapConflict;
+      if (of_two) found.emplace_back(v.kind, v.robot, v.other, v.step);
+    }
+    EXPECT_EQ(found, conflictsAsTold(plan, 6)) << test::describe(instance);
+    told += found.size();
+  }
+  EXPECT_GT(told, 1000U);
+}
+
 /// Random walks of up to four robots that happen to be valid.
 class MutationTest : public ::testing::Test {
  protected:
