@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "pipeline/kept_schedule.h"
 #include "search/departures.h"
+#include "search/ejection_chain.h"
 #include "search/neighbourhood_search.h"
 #include "search/replan_singly.h"
 #include "search/reservation_table.h"
@@ -32,6 +35,13 @@ constexpr std::uint64_t kVisitsOfRingsOneIn = 4;
 // A map is one of lanes when of its vertices more than one in so many have no third way.
 constexpr std::uint32_t kLanesOneIn = 3;
 constexpr std::uint32_t kPasses = 8;
+// A schedule that more than one in so many robots have left is none.
+constexpr std::size_t kUnplacedOneIn = 4;
+// To find places for those costs at most one in so many states of what is left.
+constexpr std::uint64_t kRepairOneIn = 4;
+constexpr std::uint32_t kRepairSlack = 16;  // [steps]
+constexpr std::uint32_t kRepairReach = 16;
+constexpr std::size_t kRepairSearches = 200;  // for those who make room
 constexpr double kStatesAPoll = 1024;
 
 bool isOfLanes(const Graph& graph) {
@@ -45,12 +55,13 @@ class RestRun {
  public:
   RestRun(const Instance& whole, bool is_of_lanes, const MotionTimes& times,
           const ReplanQuestion& question, const std::vector<std::uint64_t>& expected,
-          const Deadline& deadline)
+          const KeptSchedule& schedule, const Deadline& deadline)
       : whole_(whole),
         is_of_lanes_(is_of_lanes),
         times_(times),
         question_(question),
         expected_(expected),
+        schedule_(schedule),
         graph_(*question.graph),
         deadline_(deadline),
         now_(forecastOf(graph_)),
@@ -70,18 +81,28 @@ class RestRun {
     Plan rest = soonest(order, has_rings);
     const Instance instance = instanceOf(rest);
     if (has_rings) rest = takeOutRings(instance, std::move(rest));
-    rest = improve(instance, std::move(rest), seed);
+    const Plan in_order = rest;
+    std::optional<ReservationTable> table = keepToSchedule(instance, rest);
+    if (!table) table.emplace(instance.graph().size(), rest, headway_);
+    rest = improve(instance, std::move(rest), std::move(*table), seed);
     requireValid(instance, rest);
     answer_.expansions = work_.expansions;
     answer_.states = spent();
     judge(concatenate(graph_, cut_, rest));
+    planned_ = {answer_.execution ? std::move(rest) : in_order, beginOfRest(), headway_};
     return std::move(answer_);
   }
+
+  /// What the execution to go on with has robots do.
+  KeptSchedule& planned() { return planned_; }
 
   /// By robot, of the execution to go on with [ticks from now].
   const std::vector<std::uint32_t>& arrivals() const { return arrivals_; }
 
  private:
+  /// Where a headway does not keep them away.
+  bool avoidsRings() const { return breaksRings() && headway_ == 0; }
+
   bool breaksRings() const { return question_.avoid_rings && graph_.release() > 0; }
 
   Cut promised() const {
@@ -109,6 +130,42 @@ class RestRun {
     const Precedence order(rest, whole_.graph().size());
     spent_ += std::min(kStatesAVisitOfRings * order.size(), budget_ / kVisitsOfRingsOneIn);
     return soonest(order, !findRings(order).empty());
+  }
+
+  /// On the caller's clock.
+  std::uint64_t beginOfRest() const { return question_.asked + question_.commit; }
+
+  /// Has robots go on as they were meant to, if those that cannot find places among them.
+  /// @return a table of the plan that `rest` is then.
+  std::optional<ReservationTable> keepToSchedule(const Instance& instance, Plan& rest) {
+    // Where rings have to be looked for, places that keep to the schedule gained nothing.
+    if (avoidsRings() || schedule_.headway < headway_) return std::nullopt;
+    const std::uint64_t ticks = beginOfRest() - std::min(beginOfRest(), schedule_.begin);
+    if (ticks == 0 || ticks % times_.move != 0) return std::nullopt;
+    const std::uint32_t vertices = instance.graph().size();
+    ScheduleDraft draft = draftBySchedule(
+        schedule_, rest, departures_, static_cast<std::uint32_t>(ticks / times_.move), vertices);
+    if (draft.saved == 0 || draft.unplaced.size() > rest.paths.size() / kUnplacedOneIn) {
+      return std::nullopt;
+    }
+    for (const std::uint32_t robot : draft.unplaced) draft.plan.paths[robot].clear();
+    ReservationTable table(vertices, draft.plan, headway_);
+    for (const std::uint32_t robot : draft.unplaced) draft.plan.paths[robot] = rest.paths[robot];
+    RepairStart start;
+    start.spare = draft.saved;
+    start.slack = kRepairSlack;
+    start.reach = kRepairReach;
+    start.searches = kRepairSearches + draft.unplaced.size();
+    start.unplaced = std::move(draft.unplaced);
+    EjectionChain chain(instance, kForever - 1, Departures(departures_));
+    const bool is_whole = chain.repair(start, draft.plan, table, within(left() / kRepairOneIn));
+    work_ += chain.work();
+    if (!is_whole) return std::nullopt;
+    for (PathChange& change : chain.changes()) {
+      draft.plan.paths[change.robot] = std::move(change.path);
+    }
+    rest = std::move(draft.plan);
+    return table;
   }
 
   Forecast forecastOf(const ExecutionGraph& graph) const {
@@ -168,16 +225,14 @@ class RestRun {
     return Instance::stretchOf(whole_, starts, goals);
   }
 
-  Plan improve(const Instance& instance, Plan rest, std::uint64_t seed) {
+  Plan improve(const Instance& instance, Plan rest, ReservationTable table, std::uint64_t seed) {
     const Departures departures(departures_);
     std::vector<std::uint32_t> expected = expectedArrivals(rest);
     ReplanEffort effort;
     effort.passes = kPasses;
     effort.departures = departures;
     effort.headway = headway_;
-    const bool avoids_rings = breaksRings() && headway_ == 0;
-    effort.avoids_rings = avoids_rings;
-    ReservationTable table(instance.graph().size(), rest, headway_);
+    effort.avoids_rings = avoidsRings();
     effort.table = &table;
     effort.work = &work_;
     changes_before_ = table.changes();
@@ -192,10 +247,10 @@ class RestRun {
                                departures);
     search.expect(std::move(expected));
     const auto makes_no_ring = [&](const std::vector<PathChange>& changes) {
-      if (!avoids_rings) return true;
-      return std::none_of(changes.begin(), changes.end(), [&](const PathChange& change) {
-        return closesRing(search.table(), change.path);
-      });
+      return !avoidsRings() ||
+             std::none_of(changes.begin(), changes.end(), [&](const PathChange& change) {
+               return closesRing(search.table(), change.path);
+             });
     };
     std::uint64_t delay = sumOfCostsOf(search.plan());
     for (const std::uint32_t step : departures.soonestArrivals(instance)) delay -= step;
@@ -226,12 +281,14 @@ class RestRun {
 
   std::uint64_t left() const { return budget_ - std::min(budget_, spent()); }
 
-  /// Ends a search that has used up what is left, as one of many may take as much as all others:
-  /// searches look at the deadline once in kStatesAPoll states.
-  Deadline withinWhatIsLeft() const {
+  /// Ends a search that has used up what is left, as one of many may take as much as all others.
+  Deadline withinWhatIsLeft() const { return within(left()); }
+
+  /// Searches look at the deadline once in kStatesAPoll states.
+  Deadline within(std::uint64_t states) const {
     WorkClock of_a_poll;
     of_a_poll.tick();
-    const double polls = static_cast<double>(left()) / kStatesAPoll;
+    const double polls = static_cast<double>(states) / kStatesAPoll;
     return deadline_.countedBy(std::make_shared<WorkClock>()).within(polls * of_a_poll.nowSec());
   }
 
@@ -279,9 +336,11 @@ class RestRun {
   const MotionTimes& times_;
   const ReplanQuestion& question_;
   const std::vector<std::uint64_t>& expected_;  // empty: nothing is
+  const KeptSchedule& schedule_;                // of no robots: there is none yet
   const ExecutionGraph& graph_;
   const Deadline& deadline_;
   ReplanAnswer answer_;
+  KeptSchedule planned_;
   Forecast now_;
   Cut cut_;
   std::vector<std::uint32_t> departures_;  // [steps] behind the cut
@@ -301,7 +360,8 @@ RestReplanner::RestReplanner(const Instance& instance, const MotionTimes& times,
     : instance_(instance),
       is_of_lanes_(isOfLanes(instance.graph())),
       times_(times),
-      budget_(budget) {
+      budget_(budget),
+      schedule_(std::make_unique<KeptSchedule>()) {
   for (std::uint32_t robot = 0; robot < instance.robots(); ++robot) instance.distances(robot);
   if (budget_.expansions == 0) {
     budget_.expansions = std::max(ReplanBudget::kLeastExpansions,
@@ -309,10 +369,13 @@ RestReplanner::RestReplanner(const Instance& instance, const MotionTimes& times,
   }
 }
 
+RestReplanner::~RestReplanner() = default;
+
 ReplanAnswer RestReplanner::replan(const ReplanQuestion& question, const Deadline& deadline) {
-  RestRun run(instance_, is_of_lanes_, times_, question, expected_, deadline);
+  RestRun run(instance_, is_of_lanes_, times_, question, expected_, *schedule_, deadline);
   ReplanAnswer answer = run.run(budget_.expansions, budget_.seed + replans_++);
   expect(run.arrivals(), question.asked);
+  *schedule_ = std::move(run.planned());
   return answer;
 }
 

@@ -77,10 +77,14 @@ bool EjectionChain::mayAllBeEjected(std::size_t link, const Path& by) const {
   });
 }
 
-Path EjectionChain::search(const ChainStart& start, const Link& link, std::uint32_t latest_arrival,
+/// @param more  steps by which it may arrive later than before.
+Path EjectionChain::search(const ChainStart& start, const Link& link, std::int64_t more,
                            bool may_eject, const Deadline& deadline) {
+  const std::int64_t latest = std::min<std::int64_t>(oldCost(link) + more, latest_arrival_);
+  if (latest < 0) return {};
   const HeldDistances distances = instance_.distances(link.robot);
-  EvictionQuery query = {queryFrom(link.path, link.kept, *distances, *table_, latest_arrival)};
+  EvictionQuery query = {
+      queryFrom(link.path, link.kept, *distances, *table_, static_cast<std::uint32_t>(latest))};
   query.weights = may_eject ? &weights_ : nullptr;
   query.hasty = start.hasty;
   table_->toggleHeadway(link.path, link.kept);
@@ -96,23 +100,34 @@ Path EjectionChain::search(const ChainStart& start, const Link& link, std::uint3
   return std::move(answer.path);
 }
 
+/// What the next robot may cost more than before.
+std::int64_t EjectionChain::mostMore(std::uint32_t slack) const {
+  if (slack_ > 0) return std::min<std::int64_t>(spare_, slack);
+  return links_.size() == 1 ? -1 : spare_;
+}
+
+void EjectionChain::weighMore(std::uint32_t robot) {
+  std::uint32_t& weight = weights_[robot];
+  if (weight != EvictionQuery::kFixed) weight = std::min(2 * weight, kMostWeight);
+}
+
 /// @return whether the robot that waits longest has a path now. Others may wait for theirs.
 bool EjectionChain::placeNext(const ChainStart& start, const Deadline& deadline) {
   if (waiting_.size() > searches_left_) return false;
   const bool may_eject = waiting_.size() < searches_left_;
   --searches_left_;
   const std::size_t index = waiting_.front();
-  const bool is_first = links_.size() == 1;
-  const std::int64_t most = oldCost(links_[index]) + (is_first ? -1 : spare_);
-  const std::int64_t latest = std::min<std::int64_t>(most, latest_arrival_);
-  if (latest < 0) return false;
-  Path path = search(start, links_[index], static_cast<std::uint32_t>(latest), may_eject, deadline);
+  Path path = search(start, links_[index], mostMore(slack_), may_eject, deadline);
+  const std::uint32_t more_slack = RepairStart::kMoreSlack * slack_;
+  if (path.empty() && mostMore(more_slack) > mostMore(slack_)) {
+    path = search(start, links_[index], mostMore(more_slack), may_eject, deadline);
+  }
   if (path.empty() || !mayAllBeEjected(index, path)) return false;
   waiting_.pop_front();
   const std::uint32_t robot = links_[index].robot;
   table_->removeHead(robot, links_[index].path, links_[index].kept);
   links_[index].waits = false;
-  weights_[robot] = std::min(2 * weights_[robot], kMostWeight);
+  weighMore(robot);
   for (const std::uint32_t other : robotsInTheWay(table_->paths(), path)) {
     eject(other, path, start.reach);
   }
@@ -168,6 +183,36 @@ bool EjectionChain::run(const ChainStart& start, const Plan& plan, ReservationTa
   }
   for (const Link& link : links_) table.insert(link.robot, plan.paths[link.robot]);
   return false;
+}
+
+bool EjectionChain::repair(const RepairStart& start, const Plan& plan, ReservationTable& table,
+                           const Deadline& deadline) {
+  plan_ = &plan;
+  table_ = &table;
+  links_.clear();
+  waiting_.clear();
+  searches_left_ = start.searches;
+  spare_ = static_cast<std::int64_t>(start.spare);
+  loss_ = 0;
+  slack_ = start.slack;
+  const std::vector<std::uint32_t> weights = weights_;
+  for (std::uint32_t robot = 0; robot < plan.paths.size(); ++robot) {
+    if (departures_(robot) > 0) weights_[robot] = EvictionQuery::kFixed;
+  }
+  for (const std::uint32_t robot : start.unplaced) {
+    // Where it stands, for as long as that is known.
+    links_.push_back({robot, Path(departures_(robot) + std::size_t{1}, plan.paths[robot].front())});
+    table.insert(robot, links_.back().path);
+    wait(links_.size() - 1, departures_(robot));
+  }
+  ChainStart chain;
+  chain.reach = start.reach;
+  bool placed = true;
+  while (placed && !waiting_.empty()) placed = placeNext(chain, deadline);
+  weights_ = weights;
+  slack_ = 0;
+  if (placed) finish();
+  return placed;
 }
 
 void EjectionChain::undo(const Plan& plan, ReservationTable& table) {

@@ -32,6 +32,16 @@ struct ChainStart {
   bool hasty = false;        ///< see EvictionQuery
 };
 
+/// Robots that have no place in a table, and how far they may go to find one.
+struct RepairStart {
+  std::vector<std::uint32_t> unplaced;
+  std::uint64_t spare = 0;   ///< what all may cost more than in the plan
+  std::uint32_t slack = 0;   ///< what one may, and where that is not enough kMoreSlack times it
+  std::uint32_t reach = 0;   ///< robots change their paths so many steps before they have to
+  std::size_t searches = 1;  ///< paths that may be searched for
+  static constexpr std::uint32_t kMoreSlack = 16;
+};
+
 /// Improves a valid plan for sum of costs by a chain of ejections: a robot takes the earlier path
 /// that the fewest others are in the way of, these look for new paths from shortly before they meet
 /// it, ejecting others in turn, and so on until everybody has one, within what they all cost
@@ -51,6 +61,13 @@ class EjectionChain {
   /// @pre the table holds the paths of the plan, which is valid.
   bool run(const ChainStart& start, const Plan& plan, ReservationTable& table,
            const Deadline& deadline);
+  /// Finds paths for robots that have none in the table, where others may make room for them, but
+  /// for those who have to stand until a departure.
+  /// @return whether everybody found one: then all are in the table; else it is of no use any more.
+  /// @pre the table holds the paths of the plan but of these, and nobody is where they begin before
+  /// they depart.
+  bool repair(const RepairStart& start, const Plan& plan, ReservationTable& table,
+              const Deadline& deadline);
   /// Of the last run, which succeeded.
   std::vector<PathChange>& changes() { return changes_; }
   /// By how many steps these are better, less than 0 where a loss was allowed.
@@ -72,8 +89,10 @@ class EjectionChain {
 
   bool placeAll(const ChainStart& start, const Deadline& deadline);
   bool placeNext(const ChainStart& start, const Deadline& deadline);
-  Path search(const ChainStart& start, const Link& link, std::uint32_t latest_arrival,
-              bool may_eject, const Deadline& deadline);
+  Path search(const ChainStart& start, const Link& link, std::int64_t more, bool may_eject,
+              const Deadline& deadline);
+  std::int64_t mostMore(std::uint32_t slack) const;
+  void weighMore(std::uint32_t robot);
   bool mayAllBeEjected(std::size_t link, const Path& by) const;
   std::uint32_t firstInTheWay(const Path& by, const Path& path) const;
   void eject(std::uint32_t robot, const Path& by, std::uint32_t reach);
@@ -98,6 +117,7 @@ class EjectionChain {
   std::size_t searches_left_ = 0;
   std::int64_t spare_ = 0;  // what those in place cost less than before, and the loss
   std::int64_t loss_ = 0;
+  std::uint32_t slack_ = 0;  // of a repair, else 0
   std::vector<PathChange> changes_;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -11,6 +12,8 @@
 #include "split_mapf/core/instance.h"
 
 namespace split_mapf {
+
+struct KeptSchedule;
 
 /// How much a replan may cost. Counted in work, so that runs can be repeated.
 struct ReplanBudget {
@@ -51,21 +54,26 @@ struct ReplanAnswer {
 /// Plans the rest of an execution anew while it goes on. What robots are promised stays: the events
 /// that the forecast lets begin before `commit` ticks are over make a downward-closed cut. The
 /// forecast of the rest, which is a valid plan, is the warm start; robots known to stand stay at
-/// their starts for so long; it is improved by replanSingly() and NeighbourhoodSearch within the
-/// budget, validated, and put behind the cut. It is taken when its forecast, with releases, turns
-/// and stands, is cheaper, so the execution never gets worse by what is known, and at no time is
-/// there none. With `avoid_rings` a robot of each ring is planned anew so that it does not close
-/// it, where that is possible within half of the budget; what is left is a joint move. Then, but
-/// for maps of lanes, searches keep a headway of a step, see ReservationTable.
-/// It remembers when robots were expected to arrive: those that will arrive later than that are
-/// where something has happened, and most searches begin there. What cannot be brought back is
-/// expected to be later by a tick for each tick that has passed.
-/// Source: ours. Not thread-safe. Cost: the budget, and O(events).
+/// their starts for so long. As orders that are kept make hundreds late where one is, robots rather
+/// go on as the last replan had them, where the few that cannot find places among these, see
+/// EjectionChain::repair(), at no more than the forecast. It is improved by replanSingly() and
+/// NeighbourhoodSearch within the budget, validated, and put behind the cut. It is taken when its
+/// forecast, with releases, turns and stands, is cheaper, so the execution never gets worse by what
+/// is known, and at no time is there none. With `avoid_rings` a robot of each ring is planned anew
+/// so that it does not close it, where that is possible within half of the budget; what is left is
+/// a joint move. Then, but for maps of lanes, searches keep a headway of a step, see
+/// ReservationTable. It remembers when robots were expected to arrive: those that will arrive later
+/// than that are where something has happened, and most searches begin there. What cannot be
+/// brought back is expected to be later by a tick for each tick that has passed. Source: ours. Not
+/// thread-safe. Cost: the budget, and O(events).
 class RestReplanner {
  public:
   /// The instance outlives this object: its goals are those of the robots. Its distances are found
   /// here where they are not yet, so that no replan has to wait for them.
   RestReplanner(const Instance& instance, const MotionTimes& times, const ReplanBudget& budget);
+  ~RestReplanner();
+  RestReplanner(const RestReplanner&) = delete;
+  RestReplanner& operator=(const RestReplanner&) = delete;
 
   /// @throws std::logic_error when what was found is not valid, which would be a bug.
   ReplanAnswer replan(const ReplanQuestion& question, const Deadline& deadline = {});
@@ -78,8 +86,9 @@ class RestReplanner {
   MotionTimes times_;
   ReplanBudget budget_;
   std::uint64_t replans_ = 0;
-  std::vector<std::uint64_t> expected_;  // arrival by robot [ticks of the caller's clock]
-  std::uint64_t asked_ = 0;              // last
+  std::vector<std::uint64_t> expected_;           // arrival by robot [ticks of the caller's clock]
+  std::uint64_t asked_ = 0;                       // last
+  const std::unique_ptr<KeptSchedule> schedule_;  // what the last replan planned
 };
 
 }  // namespace split_mapf
