@@ -77,12 +77,12 @@ class Drafting {
 
   bool meetsOneWhoStands(std::uint32_t robot) const {
     const Path& path = draft_.plan.paths[robot];
-    const auto isHeld = [&](Vertex v, std::size_t t) {
+    const auto is_held = [&](Vertex v, std::size_t t) {
       return holds_[v].robot != robot && t < holds_[v].until;
     };
-    if (isHeld(path.back(), path.size())) return true;
+    if (is_held(path.back(), path.size())) return true;
     for (std::size_t t = 0; t < path.size(); ++t) {
-      if (isHeld(path[t], t)) return true;
+      if (is_held(path[t], t)) return true;
     }
     return false;
   }

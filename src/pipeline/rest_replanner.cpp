@@ -81,7 +81,7 @@ class RestRun {
     Plan rest = soonest(order, has_rings);
     const Instance instance = instanceOf(rest);
     if (has_rings) rest = takeOutRings(instance, std::move(rest));
-    const Plan in_order = rest;
+    Plan in_order = rest;
     std::optional<ReservationTable> table = keepToSchedule(instance, rest);
     if (!table) table.emplace(instance.graph().size(), rest, headway_);
     rest = improve(instance, std::move(rest), std::move(*table), seed);
@@ -89,7 +89,9 @@ class RestRun {
     answer_.expansions = work_.expansions;
     answer_.states = spent();
     judge(concatenate(graph_, cut_, rest));
-    planned_ = {answer_.execution ? std::move(rest) : in_order, beginOfRest(), headway_};
+    planned_.plan = std::move(answer_.execution ? rest : in_order);
+    planned_.begin = beginOfRest();
+    planned_.headway = headway_;
     return std::move(answer_);
   }
 
@@ -157,6 +159,9 @@ class RestRun {
     start.reach = kRepairReach;
     start.searches = kRepairSearches + draft.unplaced.size();
     start.unplaced = std::move(draft.unplaced);
+    for (std::uint32_t robot = 0; robot < question_.stands.size(); ++robot) {
+      if (question_.stands[robot] > 0) start.standing.push_back(robot);
+    }
     EjectionChain chain(instance, kForever - 1, Departures(departures_));
     const bool is_whole = chain.repair(start, draft.plan, table, within(left() / kRepairOneIn));
     work_ += chain.work();

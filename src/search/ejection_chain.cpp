@@ -196,9 +196,7 @@ bool EjectionChain::repair(const RepairStart& start, const Plan& plan, Reservati
   loss_ = 0;
   slack_ = start.slack;
   const std::vector<std::uint32_t> weights = weights_;
-  for (std::uint32_t robot = 0; robot < plan.paths.size(); ++robot) {
-    if (departures_(robot) > 0) weights_[robot] = EvictionQuery::kFixed;
-  }
+  for (const std::uint32_t robot : start.standing) weights_[robot] = EvictionQuery::kFixed;
   for (const std::uint32_t robot : start.unplaced) {
     // Where it stands, for as long as that is known.
     links_.push_back({robot, Path(departures_(robot) + std::size_t{1}, plan.paths[robot].front())});

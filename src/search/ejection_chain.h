@@ -35,7 +35,8 @@ struct ChainStart {
 /// Robots that have no place in a table, and how far they may go to find one.
 struct RepairStart {
   std::vector<std::uint32_t> unplaced;
-  std::uint64_t spare = 0;   ///< what all may cost more than in the plan
+  std::vector<std::uint32_t> standing;  ///< nobody ejects these
+  std::uint64_t spare = 0;              ///< what all may cost more than in the plan
   std::uint32_t slack = 0;   ///< what one may, and where that is not enough kMoreSlack times it
   std::uint32_t reach = 0;   ///< robots change their paths so many steps before they have to
   std::size_t searches = 1;  ///< paths that may be searched for
@@ -61,8 +62,7 @@ class EjectionChain {
   /// @pre the table holds the paths of the plan, which is valid.
   bool run(const ChainStart& start, const Plan& plan, ReservationTable& table,
            const Deadline& deadline);
-  /// Finds paths for robots that have none in the table, where others may make room for them, but
-  /// for those who have to stand until a departure.
+  /// Finds paths for robots that have none in the table, where others may make room for them.
   /// @return whether everybody found one: then all are in the table; else it is of no use any more.
   /// @pre the table holds the paths of the plan but of these, and nobody is where they begin before
   /// they depart.

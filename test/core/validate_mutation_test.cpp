@@ -92,7 +92,8 @@ TEST(ValidateProperty, AgreesWithTheRulesOnRandomWalksOfTwoRobots) {
 /// that it shares its cell with, and the first one that it exchanges places with.
 std::vector<Key> conflictsAsTold(const Plan& plan, std::uint32_t steps) {
   std::vector<Key> told;
-  const auto tellFirst = [&](ViolationKind kind, std::uint32_t robot, std::uint32_t t, auto meets) {
+  const auto tell_first = [&](ViolationKind kind, std::uint32_t robot, std::uint32_t t,
+                              auto meets) {
     std::uint32_t other = 0;
     while (other < robot && !meets(plan.paths[other])) ++other;
     const bool lasts = plan.paths[robot].size() > t || plan.paths[other].size() > t;
@@ -102,10 +103,10 @@ std::vector<Key> conflictsAsTold(const Plan& plan, std::uint32_t steps) {
     for (std::uint32_t robot = 0; robot < plan.paths.size(); ++robot) {
       const Path& own = plan.paths[robot];
       const Vertex at = positionAt(own, t);
-      tellFirst(ViolationKind::kVertexConflict, robot, t,
-                [&](const Path& path) { return positionAt(path, t) == at; });
+      tell_first(ViolationKind::kVertexConflict, robot, t,
+                 [&](const Path& path) { return positionAt(path, t) == at; });
       if (t == 0 || positionAt(own, t - 1) == at) continue;
-      tellFirst(ViolationKind::kSwapConflict, robot, t, [&](const Path& path) {
+      tell_first(ViolationKind::kSwapConflict, robot, t, [&](const Path& path) {
         return positionAt(path, t - 1) == at && positionAt(path, t) == positionAt(own, t - 1);
       });
     }

@@ -29,7 +29,7 @@ class KeptScheduleTest : public ::testing::Test {
   void draw(std::uint64_t seed) {
     RandomEngine engine(seed);
     const Instance whole = test::generatedInstance(12, 0.15, kRobots, seed);
-    const auto grid = whole.sharedGrid();
+    const auto& grid = whole.sharedGrid();
     schedule_.plan = test::planWithDelays(whole);
     trimToArrival(schedule_.plan);
     passed_ = 1 + static_cast<std::uint32_t>(drawBelow(engine, 4));
@@ -111,6 +111,9 @@ TEST_F(KeptScheduleTest, OthersFindPlacesAtNoMoreThanTheOrdersCost) {
     EjectionChain chain(*instance_, kForever - 1, Departures(departures_));
     RepairStart start;
     start.unplaced = draft_.unplaced;
+    for (std::uint32_t robot = 0; robot < kRobots; ++robot) {
+      if (departures_[robot] > 0) start.standing.push_back(robot);
+    }
     start.spare = draft_.saved;
     start.slack = 4;
     start.reach = 16;
