@@ -160,7 +160,8 @@ class RestRun {
     start.searches = kRepairSearches + draft.unplaced.size();
     start.unplaced = std::move(draft.unplaced);
     for (std::uint32_t robot = 0; robot < question_.stands.size(); ++robot) {
-      if (question_.stands[robot] > 0) start.standing.push_back(robot);
+      // Still when the rest begins.
+      if (question_.stands[robot] > question_.commit) start.standing.push_back(robot);
     }
     EjectionChain chain(instance, kForever - 1, Departures(departures_));
     const bool is_whole = chain.repair(start, draft.plan, table, within(left() / kRepairOneIn));
