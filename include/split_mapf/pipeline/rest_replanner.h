@@ -54,18 +54,22 @@ struct ReplanAnswer {
 /// Plans the rest of an execution anew while it goes on. What robots are promised stays: the events
 /// that the forecast lets begin before `commit` ticks are over make a downward-closed cut. The
 /// forecast of the rest, which is a valid plan, is the warm start; robots known to stand stay at
-/// their starts for so long. As orders that are kept make hundreds late where one is, robots rather
-/// go on as the last replan had them, where the few that cannot find places among these, see
-/// EjectionChain::repair(), at no more than the forecast. It is improved by replanSingly() and
-/// NeighbourhoodSearch within the budget, validated, and put behind the cut. It is taken when its
-/// forecast, with releases, turns and stands, is cheaper, so the execution never gets worse by what
-/// is known, and at no time is there none. With `avoid_rings` a robot of each ring is planned anew
-/// so that it does not close it, where that is possible within half of the budget; what is left is
-/// a joint move. Then, but for maps of lanes, searches keep a headway of a step, see
-/// ReservationTable. It remembers when robots were expected to arrive: those that will arrive later
-/// than that are where something has happened, and most searches begin there. What cannot be
-/// brought back is expected to be later by a tick for each tick that has passed. Source: ours. Not
-/// thread-safe. Cost: the budget, and O(events).
+/// their starts for so long. It is improved by replanSingly() and NeighbourhoodSearch within the
+/// budget, validated, and put behind the cut. It is taken when its forecast, with releases, turns
+/// and stands, is cheaper, so the execution never gets worse by what is known, and at no time is
+/// there none. With `avoid_rings` a robot of each ring is planned anew so that it does not close
+/// it, where that is possible within half of the budget; what is left is a joint move. Then, but
+/// for maps of lanes, searches keep a headway of a step, see ReservationTable.
+///
+/// Orders that are kept make hundreds late where one robot is. So robots rather go on as the last
+/// replan had them, if those that cannot find places among these, see EjectionChain::repair(), at
+/// no more than the forecast costs.
+///
+/// It remembers when robots were expected to arrive: those that will arrive later than that are
+/// where something has happened, and most searches begin there. What cannot be brought back is
+/// expected to be later by a tick for each tick that has passed.
+///
+/// Source: ours. Not thread-safe. Cost: the budget, and O(events).
 class RestReplanner {
  public:
   /// The instance outlives this object: its goals are those of the robots. Its distances are found
