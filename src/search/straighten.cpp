@@ -7,22 +7,15 @@
 
 #include "parallel/thread_team.h"
 #include "search/apart.h"
-#include "search/reservation_table.h"
+#include "search/occupancy_by_steps.h"
 #include "search/straight_search.h"
 
 namespace split_mapf {
 namespace {
 
-/// What a pass over all robots takes.
-struct Pass {
-  bool as_many;  // a path with as many turns as before, too: that may make room for others
-  TurnsLie lie;
-};
-
-// Where turns lie differs from pass to pass, so that robots try other places. A fourth pass would
+// Where turns lie differs from pass to pass, so that robots try other places. Each pass more would
 // take a third of the time more, for 2 % of what plans take longer as robots turn.
-constexpr std::array<Pass, 3> kPasses = {
-    {{false, TurnsLie::kEarly}, {true, TurnsLie::kLate}, {true, TurnsLie::kEarly}}};
+constexpr std::array<TurnsLie, 3> kPasses = {TurnsLie::kEarly, TurnsLie::kLate, TurnsLie::kEarly};
 // Robots that are searched for side by side; not the number of threads, as the plan must not depend
 // on that.
 constexpr std::uint32_t kBatch = 32;
@@ -35,12 +28,12 @@ class Straightening {
       : instance_(instance),
         deadline_(deadline),
         plan_(std::move(plan)),
-        table_(instance.graph().size(), plan_),
+        table_(graph, instance.graph().size(), plan_),
         team_(threads.atMost(kBatch)),
         searches_(team_.threads(), {StraightSearch(graph, instance.graph().size())}) {}
 
   Plan run() {
-    for (const Pass& pass : kPasses) {
+    for (TurnsLie pass : kPasses) {
       for (std::uint32_t first = 0; first < instance_.robots(); first += kBatch) {
         if (deadline_.expired()) return std::move(plan_);
         straightenBatch(first, std::min(kBatch, instance_.robots() - first), pass);
@@ -50,14 +43,14 @@ class Straightening {
   }
 
  private:
-  Path search(std::uint32_t robot, const Pass& pass, std::uint32_t member) {
+  Path search(std::uint32_t robot, TurnsLie pass, std::uint32_t member) {
     const Path& own = plan_.paths[robot];
     if (own.size() < 3) return {};
     const HeldDistances distances = instance_.distances(robot);
-    return searches_[member].value.search(robot, own, *distances, table_, pass.as_many, pass.lie);
+    return searches_[member].value.search(own, *distances, table_, pass);
   }
 
-  void straightenBatch(std::uint32_t first, std::uint32_t size, const Pass& pass) {
+  void straightenBatch(std::uint32_t first, std::uint32_t size, TurnsLie pass) {
     found_.resize(size);
     team_.forEach(size, [&](std::uint32_t i, std::uint32_t member) {
       found_[i] = search(first + i, pass, member);
@@ -71,13 +64,13 @@ class Straightening {
   /// @return false if somebody is in the way.
   bool take(std::uint32_t robot, Path path) {
     Path& own = plan_.paths[robot];
-    return path.empty() || path == own || table_.exchange(robot, own, path);
+    return path.empty() || path == own || table_.exchange(own, path);
   }
 
   const Instance& instance_;
   const Deadline& deadline_;
   Plan plan_;
-  ReservationTable table_;
+  OccupancyBySteps table_;
   ThreadTeam team_;
   std::vector<Apart<StraightSearch>> searches_;  // one a thread
   std::vector<Path> found_;
