@@ -38,7 +38,7 @@ constexpr std::uint32_t kPasses = 8;
 // A schedule that more than one in so many robots have left is none.
 constexpr std::size_t kUnplacedOneIn = 4;
 // To find places for those costs at most one in so many states of what is left.
-constexpr std::uint64_t kRepairOneIn = 4;
+constexpr std::uint64_t kRepairOneIn = 3;
 constexpr std::uint32_t kRepairSlack = 16;  // [steps]
 constexpr std::uint32_t kRepairReach = 16;
 constexpr std::size_t kRepairSearches = 200;  // for those who make room
@@ -76,6 +76,7 @@ class RestRun {
     answer_.rings = ringsAhead();
     budget_ = expansions;
     const Precedence order = restBehind(graph_, cut_);
+    visits_ = order.size();
     spent_ += std::min(costOfVisits(order.size()), budget_ / kVisitsOneIn);
     const bool has_rings = breaksRings() && !findRings(order).empty();
     Plan rest = soonest(order, has_rings);
@@ -152,6 +153,7 @@ class RestRun {
     }
     for (const std::uint32_t robot : draft.unplaced) draft.plan.paths[robot].clear();
     ReservationTable table(vertices, draft.plan, headway_);
+    spent_ += visits_ / kChangesAState;
     for (const std::uint32_t robot : draft.unplaced) draft.plan.paths[robot] = rest.paths[robot];
     RepairStart start;
     start.spare = draft.saved;
@@ -354,6 +356,7 @@ class RestRun {
   std::uint64_t budget_ = 0;               // [states]
   SearchWork work_;                        // of all searches
   std::uint64_t spent_ = 0;                // beside that
+  std::uint64_t visits_ = 0;               // of the rest
   std::uint64_t changes_before_ = 0;       // of the table, when it was made
   std::uint64_t spent_on_changes_ = 0;     // since then
   std::uint32_t headway_ = 0;              // [steps] that the plans of the rest keep

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "core/standing_times.h"
 #include "search/departures.h"
 #include "search/neighbourhood_search.h"
@@ -192,6 +197,65 @@ TEST(RestReplanner, SpendsNoMoreThanItsBudgetOnRingsEither) {
     EXPECT_GT(answer.states, budget / 2);
     EXPECT_LE(answer.states, budget + 1000) << budget;
   }
+}
+
+/// A robot that is to cross a corridor before a train of others comes.
+struct CrossingBeforeATrain {
+  static constexpr std::uint32_t kTrain = 14;
+  static constexpr int kLength = 200;
+  static constexpr int kCrossing = 20;
+  static constexpr std::uint32_t kMove = 10;
+
+  std::shared_ptr<const Grid> grid;
+  Plan plan;
+  CrossingBeforeATrain() {
+    std::string beside(kLength, '#');
+    beside[kCrossing] = '.';
+    grid = test::gridFromAscii({beside, std::string(kLength, '.'), beside});
+    for (std::uint32_t robot = 0; robot < kTrain; ++robot) {
+      Path path;
+      const int first = static_cast<int>(robot) + 3;
+      for (int x = first; x < kLength - static_cast<int>(kTrain - robot); ++x) {
+        path.push_back(grid->vertexAt({x, 1}));
+      }
+      plan.paths.push_back(std::move(path));
+    }
+    Path crossing;
+    for (const int y : {0, 1, 2}) crossing.push_back(grid->vertexAt({kCrossing, y}));
+    plan.paths.push_back(std::move(crossing));
+  }
+};
+
+/// Its orders would hold all of them up, and there is little time to search for each.
+TEST(RestReplanner, HasRobotsGoOnAsTheyWereMeantToWhenAnotherIsLate) {
+  using Crossing = CrossingBeforeATrain;
+  const Crossing crossing;
+  const Instance instance = test::instanceOf(crossing.grid, crossing.plan);
+  const MotionTimes times{Crossing::kMove, 0, 0};
+  const ReplanBudget budget = {4000, 0};
+  ExecutionGraph graph(Precedence(crossing.plan, crossing.grid->size()), 0);
+  ReplanQuestion question;
+  question.graph = &graph;
+  question.stands.assign(Crossing::kTrain + 1, 0);
+  question.commit = Crossing::kMove;
+  RestReplanner replanner(instance, times, budget);
+  const ReplanAnswer meant = replanner.replan(question);
+  ASSERT_FALSE(meant.execution) << "nothing is better";
+  // A move later all are where they were meant to be but the one that crosses.
+  for (std::uint32_t robot = Crossing::kTrain; robot-- > 0;) {
+    graph.report(robot, graph.at(robot) + 1, 1);
+  }
+  question.asked = Crossing::kMove;
+  question.stands.back() = 50 * Crossing::kMove;
+  const ReplanAnswer answer = replanner.replan(question);
+  ASSERT_TRUE(answer.execution);
+  // 52 moves for the one, of which two were planned, and a move has gone by for each of the others.
+  EXPECT_EQ(answer.cost_after,
+            meant.cost_before + (50 - std::uint64_t{Crossing::kTrain}) * Crossing::kMove);
+  EXPECT_LE(answer.expansions, budget.expansions);
+  // Who does not know of the schedule does not get so far.
+  const ReplanAnswer anew = RestReplanner(instance, times, budget).replan(question);
+  EXPECT_GT(anew.cost_after, answer.cost_after + 500);
 }
 
 }  // namespace

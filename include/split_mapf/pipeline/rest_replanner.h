@@ -23,8 +23,8 @@ struct ReplanBudget {
   /// 0: kDefaultExpansions a robot, and kLeastExpansions at least.
   std::uint64_t expansions = 0;
   std::uint64_t seed = 0;
-  static constexpr std::uint64_t kDefaultExpansions = 800;
-  static constexpr std::uint64_t kLeastExpansions = 700000;
+  static constexpr std::uint64_t kDefaultExpansions = 680;
+  static constexpr std::uint64_t kLeastExpansions = 680000;
 };
 
 /// What a replan may rely on.
