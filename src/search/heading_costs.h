@@ -14,8 +14,9 @@ namespace split_mapf {
 class HeadingCosts {
  public:
   /// Of a quarter turn.
-  static constexpr std::uint32_t kTurn = 32;
-  static constexpr std::uint32_t kMost = 0x7f00;
+  static constexpr std::uint32_t kTurn = 64;
+  // Four quarter turns and a move may come on top: each number has 15 bits.
+  static constexpr std::uint32_t kMost = 0x7e00;
 
   HeadingCosts() = default;
   /// Of a robot that comes with this heading; kNoHeading: with any.

@@ -28,7 +28,7 @@ class StraightSearch {
   StraightSearch(const HeadingGraph& graph, std::uint32_t vertices);
   /// @param own  the path of the robot in the table.
   /// @return one that costs no more, `own` itself it may be; an empty one where none is found: with
-  /// a thousand turns.
+  /// five hundred turns.
   Path search(const Path& own, const DistanceTable& distances, const OccupancyBySteps& placed,
               TurnsLie lie = TurnsLie::kEarly);
 

@@ -19,7 +19,7 @@ std::uint32_t countTurns(const Grid& grid, const Path& path);
 /// to one of four directions; any other plan comes back as it was.
 ///
 /// A robot that turns is late, and makes late who is close behind it. A place that is close costs a
-/// 32nd of a turn: so turns come first, as robots seldom have 32 close places to save. Robots are
+/// 64th of a turn: so turns come first, as robots seldom have 64 close places to save. Robots are
 /// searched for side by side, 32 at a time (StraightSearch); a robot that meets another of its
 /// batch on that one's new path is searched for again. Ours. Deterministic but for the deadline,
 /// and the plan does not depend on the threads. Cost: 0.3 to 0.6 ms of CPU a robot on large maps;
