@@ -17,7 +17,7 @@ namespace {
 /// As the paths themselves say it.
 void expectAsPlanned(const Grid& grid, const OccupancyBySteps& table, const Plan& plan) {
   const std::uint32_t last = makespanOf(plan);
-  const auto whoIsAt = [&](Vertex v, std::uint32_t t) -> const Path* {
+  const auto path_at = [&](Vertex v, std::uint32_t t) -> const Path* {
     for (const Path& path : plan.paths) {
       if (positionAt(path, t) == v) return &path;
     }
@@ -27,7 +27,7 @@ void expectAsPlanned(const Grid& grid, const OccupancyBySteps& table, const Plan
   for (std::uint32_t t = 0; t <= last; ++t) {
     const OccupancyBySteps::Step step = table.at(t);
     for (Vertex v = 0; v < grid.size(); ++v) {
-      const Path* const path = whoIsAt(v, t);
+      const Path* const path = path_at(v, t);
       ASSERT_EQ(step.isTaken(v), path != nullptr) << "vertex " << v << ", step " << t;
       const Vertex before = path == nullptr || t == 0 ? v : positionAt(*path, t - 1);
       for (Heading heading = 0; heading < 4; ++heading) {
@@ -35,8 +35,8 @@ void expectAsPlanned(const Grid& grid, const OccupancyBySteps& table, const Plan
         ASSERT_EQ(step.isEntered(v, heading), entered) << "vertex " << v << ", step " << t;
       }
       if (path != nullptr) continue;
-      const bool was = t > 0 && whoIsAt(v, t - 1) != nullptr;
-      const bool will = t < last && whoIsAt(v, t + 1) != nullptr;
+      const bool was = t > 0 && path_at(v, t - 1) != nullptr;
+      const bool will = t < last && path_at(v, t + 1) != nullptr;
       ASSERT_EQ(step.countBeside(v), (was ? 1U : 0U) + (will ? 1U : 0U))
           << "vertex " << v << ", step " << t;
     }
@@ -64,10 +64,10 @@ TEST(OccupancyBySteps, SaysWhatThePathsSay) {
       const std::vector<Vertex> ways = {other[t - 1], other[t + 1],
                                         *grid->graph().neighbours(other[t - 1]).begin()};
       other[t] = ways[drawBelow(engine, 3)];
-      const auto isMove = [&](Vertex a, Vertex b) {
+      const auto is_move = [&](Vertex a, Vertex b) {
         return a == b || graph.headingOf(a, b) != kNoHeading;
       };
-      if (!isMove(other[t - 1], other[t]) || !isMove(other[t], other[t + 1])) continue;
+      if (!is_move(other[t - 1], other[t]) || !is_move(other[t], other[t + 1])) continue;
       while (other.size() > 1 && other[other.size() - 2] == other.back()) other.pop_back();
       Plan changed = plan;
       changed.paths[robot] = other;
