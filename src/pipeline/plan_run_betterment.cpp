@@ -123,8 +123,8 @@ void PlanRun::refineUntil(const Deadline& end) {
 }
 
 void PlanRun::takeTurnsOut() {
-  if (step_table_.isTooLargeForEachThread()) {
-    report_.message += "; not straightened: " + step_table_.describe();
+  if (step_table_.isTooLargeToStraighten()) {
+    report_.message += "; not straightened: " + step_table_.describeToStraighten();
     return;
   }
   log_.enterStage("straighten");

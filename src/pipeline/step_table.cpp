@@ -8,6 +8,8 @@ namespace {
 constexpr std::uint64_t kMostMebibytes = 192;
 // Of large teams: solvers that keep none keep a table of distances a robot, which takes more.
 constexpr std::uint64_t kMostOfTeamMebibytes = 512;
+// Of straightening, whatever the threads: one, and no others beside it.
+constexpr std::uint64_t kMostToStraightenMebibytes = 512;
 // Several of them would be kept.
 constexpr std::uint64_t kMostAskedForMebibytes = 2048;
 
@@ -22,6 +24,15 @@ StepTable::StepTable(const Instance& instance, std::uint32_t steps) {
 bool StepTable::isTooLarge() const { return mebibytes_ > most_mebibytes_; }
 
 bool StepTable::isTooLargeForEachThread() const { return mebibytes_ > kMostMebibytes; }
+
+bool StepTable::isTooLargeToStraighten() const {
+  return kBitsToStraighten * mebibytes_ > kMostToStraightenMebibytes;
+}
+
+std::string StepTable::describeToStraighten() const {
+  return "a table of steps to straighten would take " +
+         std::to_string(kBitsToStraighten * mebibytes_) + " MiB";
+}
 
 bool StepTable::isImpossible() const { return mebibytes_ > kMostAskedForMebibytes; }
 

@@ -19,6 +19,10 @@ class StepTable {
   bool isTooLarge() const;
   /// Improving a plan keeps one or more for each thread: none of these is made then.
   bool isTooLargeForEachThread() const;
+  /// Straightening keeps one with kBitsToStraighten a cell and step: a plan is left as it is then.
+  bool isTooLargeToStraighten() const;
+  /// "a table of steps to straighten would take 600 MiB".
+  std::string describeToStraighten() const;
   /// Not even then.
   bool isImpossible() const;
   /// "a table of steps WHOSE would take 300 MiB". @param whose  begins with a blank; or is empty.
@@ -29,6 +33,8 @@ class StepTable {
   static std::string mostPossible();
 
  private:
+  static constexpr std::uint64_t kBitsToStraighten = 4;  // see OccupancyBySteps
+
   std::uint64_t mebibytes_ = 0;
   std::uint64_t most_mebibytes_ = 0;
 };

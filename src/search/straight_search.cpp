@@ -54,8 +54,8 @@ inline HeadingCosts::Headings StraightSearch::goesOn(const State& state) const {
   return state.costs.within(most_, graph_.turnsLeft(state.vertex, distances_->goal()));
 }
 
-/// Whoever waits where it could leave at no greater cost gains nothing by leaving now, as long as
-/// it could have waited there.
+/// Where a robot that waits need not go now: it could have gone there before at no greater cost,
+/// and have waited there, as nobody is there now.
 inline HeadingCosts::Headings StraightSearch::needNotMove(const State& state,
                                                           const OccupancyBySteps::Step& now,
                                                           Vertex own) const {

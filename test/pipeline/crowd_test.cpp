@@ -144,5 +144,14 @@ TEST(Crowd, KeptATableOfStepsForEachThreadThatImprovesItsPlan) {
   EXPECT_FALSE(StepTable(resting(4096), kSteps / 2).isTooLargeForEachThread());
 }
 
+TEST(Crowd, IsStraightenedWhereATableOfFourBitsAStepIsNotTooLarge) {
+  constexpr std::uint32_t kSteps = 220000;  // of 4900 cells: 128 MiB by bits
+  const StepTable table(resting(1), kSteps + kSteps / 8);
+  EXPECT_FALSE(table.isTooLargeForEachThread());
+  EXPECT_TRUE(table.isTooLargeToStraighten());
+  EXPECT_EQ(table.describeToStraighten(), "a table of steps to straighten would take 576 MiB");
+  EXPECT_FALSE(StepTable(resting(1), kSteps - kSteps / 8).isTooLargeToStraighten());
+}
+
 }  // namespace
 }  // namespace split_mapf
