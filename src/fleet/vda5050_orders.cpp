@@ -111,11 +111,13 @@ std::optional<std::size_t> Vda5050Vehicle::whereToBegin() const {
   return at_plan_ == route_.plan_id ? indexOf(at_) : 0;
 }
 
-/// It stands between two nodes, and would refuse an order that begins elsewhere.
+/// It stands between two nodes, and would refuse an order that begins elsewhere. The node has a
+/// name of its own, as the robot counts its way from there.
 void Vda5050Vehicle::beginUnderWay(Vda5050Order& order, std::size_t from) const {
   const PlacedVisit& left = route_.visits[from];
   const PlacedVisit& next = route_.visits[from + 1];
   const bool is_known = state_->position && state_->position->map_id == options_.map_id;
+  order.nodes[0].id = nodeIdOf({route_.plan_id, left.sequence, fraction_});
   order.nodes[0].x_m =
       is_known ? state_->position->x_m : left.x_m + fraction_ * (next.x_m - left.x_m);
   order.nodes[0].y_m =

@@ -71,8 +71,8 @@ bool Vda5050Vehicle::isBusyElsewhere() const {
 /// Whether its order was made here, or by a process that was here before.
 bool Vda5050Vehicle::isOurs() const {
   const auto order = partsOf(state_->order_id);
-  const auto node = partsOf(state_->nodes.empty() ? state_->last_node_id : state_->nodes[0].id);
-  return order && node && order->first == node->first;
+  const auto node = placeOf(state_->nodes.empty() ? state_->last_node_id : state_->nodes[0].id);
+  return order && node && order->first == node->plan;
 }
 
 bool Vda5050Vehicle::hasError(Vda5050ErrorLevel level) const {
@@ -84,9 +84,11 @@ bool Vda5050Vehicle::isInNeed() const {
   return hasError(Vda5050ErrorLevel::kFatal) || hasError(Vda5050ErrorLevel::kCritical);
 }
 
-/// [m] of the move that it has done. A little is the tolerance of a node.
-double Vda5050Vehicle::wayDone(const PlacedVisit& from, const PlacedVisit& to) const {
-  double way = state_->since_last_node_m.value_or(0);
+/// [m] of the move that it has done, of which `before_m` before its last node. A little is the
+/// tolerance of a node.
+double Vda5050Vehicle::wayDone(const PlacedVisit& from, const PlacedVisit& to,
+                               double before_m) const {
+  double way = before_m + state_->since_last_node_m.value_or(0);
   if (state_->position && state_->position->map_id == options_.map_id) {
     const double length = std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
     way = ((state_->position->x_m - from.x_m) * (to.x_m - from.x_m) +
@@ -98,14 +100,14 @@ double Vda5050Vehicle::wayDone(const PlacedVisit& from, const PlacedVisit& to) c
 
 /// Its visit, and what it has done of the move out of it: never less than before.
 void Vda5050Vehicle::locate() {
-  auto node = partsOf(state_->last_node_id);
+  auto node = placeOf(state_->last_node_id);
   const bool on_order = order_ && state_->order_id == order_->order_id;
-  if (on_order && (!node || node->first != route_.plan_id)) {
+  if (on_order && (!node || node->plan != route_.plan_id)) {
     // It took the order up, and names the node where it began only when it has left it.
-    node = std::make_pair(route_.plan_id, base_begin_.sequence);
+    node = NodePlace{route_.plan_id, base_begin_.sequence, 0};
   }
-  const std::string plan = node ? node->first : "";
-  const std::uint32_t at = node ? node->second : 0;
+  const std::string plan = node ? node->plan : "";
+  const std::uint32_t at = node ? node->sequence : 0;
   if (plan != at_plan_ || at != at_) fraction_ = 0;
   at_plan_ = plan;
   at_ = at;
@@ -116,7 +118,8 @@ void Vda5050Vehicle::locate() {
   const PlacedVisit& to = route_.visits[*index + 1];
   const double length = std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
   if (!to.released || !(length > 0)) return;
-  fraction_ = std::max(fraction_, std::min(wayDone(from, to) / length, kMostOfAMove));
+  const double way = wayDone(from, to, node->fraction * length);
+  fraction_ = std::max(fraction_, std::min(way / length, kMostOfAMove));
 }
 
 /// Takes over an order under way that another process sent, if all of its base is on the route.

@@ -205,7 +205,7 @@ TEST_F(VehicleTest, CountsAsBlockedWhenItHasDroppedItsOrderAndEndsTheMoveThatItB
   EXPECT_EQ(status(4.5), DriveStatus::kOk);
   const auto message = vehicle_.due(4.5, 0);
   ASSERT_TRUE(message);
-  EXPECT_EQ(summaryOf(message->text), "p/1 0: p/0#0 p/1#2 | p/2#4");
+  EXPECT_EQ(summaryOf(message->text), "p/1 0: p/0@500#0 p/1#2 | p/2#4");
   EXPECT_NE(message->text.find("\"x\":0.5"), std::string::npos);  // where it stands
 }
 
@@ -299,8 +299,39 @@ TEST_F(VehicleTest, AnOrderThatWasRefusedIsMadeAnewWhereTheRobotStands) {
   vehicle_.take(busy, 2);
   const auto message = vehicle_.due(2, 0);
   ASSERT_TRUE(message);
-  EXPECT_EQ(summaryOf(message->text), "p/2 0: p/0#0 p/1#2 p/2#4");
+  EXPECT_EQ(summaryOf(message->text), "p/2 0: p/0@600#0 p/1#2 p/2#4");
   EXPECT_NE(message->text.find("\"x\":0.6"), std::string::npos);
+}
+
+// A robot that knows no place of its own counts its way from there.
+TEST_F(VehicleTest, AnOrderThatBeganOnTheWayIsCountedFromThere) {
+  vehicle_.take(standing("p/0@500", "p/2", 0), 0);
+  vehicle_.take(route("p", {0, 1, 2}, 2));
+  EXPECT_NEAR(vehicle_.progress(0)->fraction, 0.5, 1e-9);
+  EXPECT_EQ(sent(0), "order p/3 0: p/0@500#0 p/1#2 p/2#4");
+  Vda5050State state = withAhead(standing("p/0@500", "p/3", 0), {{"p/1", 2, true}});
+  state.since_last_node_m = 0.25;
+  vehicle_.take(withError(state, Vda5050ErrorLevel::kCritical), 1);
+  EXPECT_EQ(vehicle_.progress(1)->sequence, 0U);
+  EXPECT_NEAR(vehicle_.progress(1)->fraction, 0.75, 1e-9);
+  EXPECT_EQ(sent(1), "cancel");
+  state.nodes.clear();
+  vehicle_.take(withError(state, Vda5050ErrorLevel::kCritical), 2);
+  vehicle_.take(state, 4.5);
+  const auto message = vehicle_.due(4.5, 0);
+  ASSERT_TRUE(message);
+  EXPECT_EQ(summaryOf(message->text), "p/4 0: p/0@750#0 p/1#2 | p/2#4");
+  EXPECT_NE(message->text.find("\"x\":0.75"), std::string::npos);
+}
+
+TEST_F(VehicleTest, NodesOfOthersAreNotTakenForItsOwn) {
+  for (const char* node : {"p/0@", "p/0@1000", "p/0@6x", "p@600", "@600", "p/@600", "/"}) {
+    vehicle_.take(standing(node), 0);
+    EXPECT_EQ(vehicle_.progress(0)->plan_id, "") << node;
+  }
+  vehicle_.take(standing("a@b/7@25"), 0);
+  EXPECT_EQ(vehicle_.progress(0)->plan_id, "a@b");
+  EXPECT_EQ(vehicle_.progress(0)->sequence, 7U);
 }
 
 TEST_F(VehicleTest, LeavesOrdersOfOthersAlone) {

@@ -54,8 +54,9 @@ Vda5050Order firstOrder(const PlacedRoute& route, const Vda5050Options& options)
 ///
 /// Released visits are the base, the others the horizon. The next update is made when the robot has
 /// acknowledged the one before, and begins with the last node of its base; a message that was lost
-/// is sent again. A visit is a node "PLAN/SEQUENCE", an order is "PLAN/NUMBER": a robot's state
-/// says all that is needed, so another process may take over at any time.
+/// is sent again. A visit is a node "PLAN/SEQUENCE", an order is "PLAN/NUMBER"; an order that
+/// begins on the way to the next visit begins with a node "PLAN/SEQUENCE@THOUSANDTHS" of that way:
+/// a robot's state says all that is needed, so another process may take over at any time.
 ///
 /// A robot in need (an error that is FATAL or CRITICAL) is told to drop its order. When it has, it
 /// counts as kFault or kBlocked, which free what was released to it; until then that stays its own,
@@ -97,7 +98,7 @@ class Vda5050Vehicle {
   DriveStatus driveStatus() const;
 
   void locate();
-  double wayDone(const PlacedVisit& from, const PlacedVisit& to) const;
+  double wayDone(const PlacedVisit& from, const PlacedVisit& to, double before_m) const;
   void judge(double now);
   void watchForLostOrder(double now);
   void giveUp(double now);
