@@ -4,8 +4,8 @@
 usage: source_units.py FOLDER SIZE SOURCE...
 
 Most of a compiler's time goes into the headers of the system, once for every source. In a unit of
-SIZE sources they are read once. Sources of a unit have no name of an unnamed namespace, no test and
-no alias in common. Writes FOLDER/unit_N.cpp (an unchanged file is not touched), removes what a
+SIZE sources they are read once. Sources of a unit have no name of an unnamed namespace, no test, no
+alias and no main() in common. Writes FOLDER/unit_N.cpp (an unchanged file is not touched), removes what a
 longer list left there, and prints the files. cmake/source_units.cmake calls it; scripts/tidy asks
 for the same units.
 """
@@ -21,7 +21,7 @@ ENTITY = re.compile(r"(\w+)\s*(?:\[[^\]]*\])*\s*(?:\(|=|;|\{|$)")
 
 
 def own_names(source):
-    """Names that a source has for itself: of an unnamed namespace, a test, a macro, a using."""
+    """Names that a source has for itself: of an unnamed namespace, a test, a macro, a using, main()."""
     names = set()
     is_unnamed = False
     with open(source, encoding="utf-8") as lines:
@@ -33,7 +33,7 @@ def own_names(source):
             if match:
                 names.add("_".join(filter(None, match.groups())))
                 continue
-            match = re.match(r"#define (\w+)", line) or re.match(r"using (?:[\w:]+::)?(\w+)( =|;)", line)
+            match = re.match(r"(?:#define |int (?=main\())(\w+)", line) or re.match(r"using (?:[\w:]+::)?(\w+)( =|;)", line)
             if not match and is_unnamed and re.match(r"(?!using )[A-Za-z]", line):
                 match = TYPE.match(line) or ENTITY.search(line)
             if match:

@@ -33,9 +33,9 @@ constexpr std::uint32_t kRoomsMinSide = 5;
 constexpr std::uint32_t kDoorWidth = 2;
 
 /// Free and blocked cells while a map is being drawn.
-class Canvas {
+class DrawnMap {
  public:
-  Canvas(std::uint32_t width, std::uint32_t height)
+  DrawnMap(std::uint32_t width, std::uint32_t height)
       : width_(width), free_(std::size_t{width} * height, true) {}
   void set(std::uint32_t x, std::uint32_t y, bool free) {
     free_[std::size_t{y} * width_ + x] = free;
@@ -88,27 +88,27 @@ void requireValid(const GeneratorOptions& options) {
 }
 
 void strewObstacles(double density, RandomEngine& engine, std::uint32_t width, std::uint32_t height,
-                    Canvas& canvas) {
+                    DrawnMap& map) {
   std::vector<std::uint32_t> cells(std::size_t{width} * height);
   for (std::uint32_t i = 0; i < cells.size(); ++i) cells[i] = i;
   shuffle(cells, engine);
   const auto blocked =
       static_cast<std::size_t>(std::floor(density * static_cast<double>(cells.size()) + 0.5));
   for (std::size_t i = 0; i < std::min(blocked, cells.size()); ++i) {
-    canvas.set(cells[i] % width, cells[i] / width, false);
+    map.set(cells[i] % width, cells[i] / width, false);
   }
 }
 
-void buildWarehouse(std::uint32_t width, std::uint32_t height, Canvas& canvas) {
+void buildWarehouse(std::uint32_t width, std::uint32_t height, DrawnMap& map) {
   for (std::uint32_t y = kAisle; y + kShelfDepth + kAisle <= height; y += kShelfDepth + kAisle) {
     for (std::uint32_t x = kStationZone; x + kShelfLength + kStationZone <= width;
          x += kShelfLength + kAisle) {
-      canvas.fill(x, y, kShelfLength, kShelfDepth);
+      map.fill(x, y, kShelfLength, kShelfDepth);
     }
   }
   for (std::uint32_t y = kAisle; y + kStationLength + kAisle <= height; y += kStationPitch) {
-    canvas.fill(0, y, kStationDepth, kStationLength);
-    canvas.fill(width - kStationDepth, y, kStationDepth, kStationLength);
+    map.fill(0, y, kStationDepth, kStationLength);
+    map.fill(width - kStationDepth, y, kStationDepth, kStationLength);
   }
 }
 
@@ -127,42 +127,42 @@ std::uint32_t drawDoor(std::uint32_t corner, std::uint32_t next_corner, RandomEn
   return corner + 1 + static_cast<std::uint32_t>(drawBelow(engine, inner - kDoorWidth + 1));
 }
 
-void buildRooms(const GeneratorOptions& options, RandomEngine& engine, Canvas& canvas) {
+void buildRooms(const GeneratorOptions& options, RandomEngine& engine, DrawnMap& map) {
   const std::vector<std::uint32_t> columns = placeWalls(options.width);
   const std::vector<std::uint32_t> rows = placeWalls(options.height);
-  for (const std::uint32_t x : columns) canvas.fill(x, 0, 1, options.height);
-  for (const std::uint32_t y : rows) canvas.fill(0, y, options.width, 1);
+  for (const std::uint32_t x : columns) map.fill(x, 0, 1, options.height);
+  for (const std::uint32_t y : rows) map.fill(0, y, options.width, 1);
   for (std::size_t row = 0; row + 1 < rows.size(); ++row) {
     for (std::size_t column = 0; column + 1 < columns.size(); ++column) {
       const bool has_left = column > 0;
       const bool has_upper = row > 0;
       if (has_left) {
         const std::uint32_t door = drawDoor(rows[row], rows[row + 1], engine);
-        for (std::uint32_t i = 0; i < kDoorWidth; ++i) canvas.set(columns[column], door + i, true);
+        for (std::uint32_t i = 0; i < kDoorWidth; ++i) map.set(columns[column], door + i, true);
       }
       if (has_upper) {
         const std::uint32_t door = drawDoor(columns[column], columns[column + 1], engine);
-        for (std::uint32_t i = 0; i < kDoorWidth; ++i) canvas.set(door + i, rows[row], true);
+        for (std::uint32_t i = 0; i < kDoorWidth; ++i) map.set(door + i, rows[row], true);
       }
     }
   }
 }
 
 std::shared_ptr<const Grid> buildGrid(const GeneratorOptions& options, RandomEngine& engine) {
-  Canvas canvas(options.width, options.height);
+  DrawnMap map(options.width, options.height);
   switch (options.kind) {
     case MapKind::kRandom:
       strewObstacles(options.density.value_or(kDefaultDensity), engine, options.width,
-                     options.height, canvas);
+                     options.height, map);
       break;
     case MapKind::kWarehouse:
-      buildWarehouse(options.width, options.height, canvas);
+      buildWarehouse(options.width, options.height, map);
       break;
     case MapKind::kRooms:
-      buildRooms(options, engine, canvas);
+      buildRooms(options, engine, map);
       break;
   }
-  return std::make_shared<const Grid>(options.width, options.height, canvas.free());
+  return std::make_shared<const Grid>(options.width, options.height, map.free());
 }
 
 /// Vertices that can be reached from `from`; marks them in `seen`.

@@ -239,7 +239,7 @@ TEST(ServerOptions, NameTheParameterThatIsWrong) {
     parameters[name] = value;
     try {
       readServerOptions(parameters);
-      ADD_FAILURE() << name << " accepted: " << value;
+      ADD_FAILURE() << name << " accepted: " << value.toXml();
     } catch (const OptionError& error) {
       const std::string expected = name == "objective" ? "speed" : name;
       EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
