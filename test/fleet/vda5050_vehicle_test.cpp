@@ -48,6 +48,13 @@ class VehicleTest : public ::testing::Test {
     }
     return "order " + summaryOf(message->text);
   }
+  /// An order, with where it begins along x: "order plan/1 0: plan/1 plan/2 from 0.5".
+  std::string sentWithPlace(double now) {
+    const auto message = vehicle_.due(now, now);
+    if (!message) return "";
+    const std::size_t nodes = message->text.find("\"nodes\":");
+    return "order " + summaryOf(message->text) + " from " + valueOf(message->text, "x", nodes);
+  }
   static std::string valueOf(const std::string& text, const std::string& key, std::size_t from) {
     std::size_t at = text.find("\"" + key + "\":", from) + key.size() + 3;
     if (text[at] == '"') ++at;
@@ -203,10 +210,8 @@ TEST_F(VehicleTest, CountsAsBlockedWhenItHasDroppedItsOrderAndEndsTheMoveThatItB
   EXPECT_EQ(status(3), DriveStatus::kBlocked);  // told for a while: messages may be lost
   vehicle_.take(state, 4.5);
   EXPECT_EQ(status(4.5), DriveStatus::kOk);
-  const auto message = vehicle_.due(4.5, 0);
-  ASSERT_TRUE(message);
-  EXPECT_EQ(summaryOf(message->text), "p/1 0: p/0@500#0 p/1#2 | p/2#4");
-  EXPECT_NE(message->text.find("\"x\":0.5"), std::string::npos);  // where it stands
+  EXPECT_EQ(sentWithPlace(4.5),
+            "order p/1 0: p/0@500#0 p/1#2 | p/2#4 from 0.5");  // where it stands
 }
 
 TEST_F(VehicleTest, GivesNothingUpWhenItIsWellBeforeItWasTold) {
@@ -297,10 +302,7 @@ TEST_F(VehicleTest, AnOrderThatWasRefusedIsMadeAnewWhereTheRobotStands) {
   busy.nodes.clear();
   busy.since_last_node_m = 0.6;
   vehicle_.take(busy, 2);
-  const auto message = vehicle_.due(2, 0);
-  ASSERT_TRUE(message);
-  EXPECT_EQ(summaryOf(message->text), "p/2 0: p/0@600#0 p/1#2 p/2#4");
-  EXPECT_NE(message->text.find("\"x\":0.6"), std::string::npos);
+  EXPECT_EQ(sentWithPlace(2), "order p/2 0: p/0@600#0 p/1#2 p/2#4 from 0.6");
 }
 
 // A robot that knows no place of its own counts its way from there.
@@ -318,10 +320,7 @@ TEST_F(VehicleTest, AnOrderThatBeganOnTheWayIsCountedFromThere) {
   state.nodes.clear();
   vehicle_.take(withError(state, Vda5050ErrorLevel::kCritical), 2);
   vehicle_.take(state, 4.5);
-  const auto message = vehicle_.due(4.5, 0);
-  ASSERT_TRUE(message);
-  EXPECT_EQ(summaryOf(message->text), "p/4 0: p/0@750#0 p/1#2 | p/2#4");
-  EXPECT_NE(message->text.find("\"x\":0.75"), std::string::npos);
+  EXPECT_EQ(sentWithPlace(4.5), "order p/4 0: p/0@750#0 p/1#2 | p/2#4 from 0.75");
 }
 
 TEST_F(VehicleTest, NodesOfOthersAreNotTakenForItsOwn) {
